@@ -1,0 +1,134 @@
+"""The catalogue: every model file and every vehicle file that is shipped, found by looking into their folders."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import os
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from .core.errors import ModelError, UcritError, near_match
+from .core.files import parse_vehicle, read_text
+from .core.model import Model
+
+HERE = Path(__file__).resolve().parent
+VEHICLES = HERE / "data" / "vehicles"
+PUBLISHED = HERE / "data" / "published"
+
+
+@cache
+def model_names() -> tuple[str, ...]:
+    """Names of all models in the catalogue.
+
+    >>> "trailer" in model_names()
+    True
+    """
+    stems = (e.name[:-3] for e in os.scandir(HERE / "models") if e.name.endswith(".py"))
+    return tuple(sorted(stem.replace("_", "-") for stem in stems if not stem.startswith("_")))
+
+
+@cache
+def vehicle_names() -> tuple[str, ...]:
+    """Names of all vehicles that are shipped.
+
+    >>> "caravan" in vehicle_names()
+    True
+    """
+    return tuple(sorted(e.name[:-5] for e in os.scandir(VEHICLES) if e.name.endswith(".toml")))
+
+
+def find_model(name: str, folder: Path | None = None) -> type[Model]:
+    """Return a model class by its catalogue name, or from a Python file (``"my_model.py"``).
+
+    A file may hold several models: ``"my_model.py:Caster"`` picks one. Relative paths start at ``folder``.
+    """
+    path, _, cls = name.partition(":") if ".py" in name else (name, "", "")
+    if path.endswith(".py"):
+        return _from_file((folder or Path()) / path, cls)
+    key = name.replace("_", "-")
+    if key not in model_names():
+        raise UcritError(f"there is no model '{name}'{near_match(name, model_names())}")
+    module = importlib.import_module(f"ucrit.models.{key.replace('-', '_')}")
+    return models_in(module)[0]
+
+
+def models_in(module: ModuleType) -> list[type[Model]]:
+    """Return the model classes that a module itself defines, last one last."""
+    found = [
+        value
+        for value in vars(module).values()
+        if isinstance(value, type) and issubclass(value, Model) and value.__module__ == module.__name__
+    ]
+    if not found:
+        raise ModelError(f"'{module.__name__}' defines no model: a class derived from ucrit.Model is needed")
+    return found
+
+
+def models_in_file(path: Path) -> list[type[Model]]:
+    """Return the model classes of a Python file, which is run for it."""
+    read_text(path)
+    spec = importlib.util.spec_from_file_location(path.stem, path)
+    if spec is None or spec.loader is None:
+        raise UcritError(f"'{path}' is not a Python file")
+    module = importlib.util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except UcritError:
+        raise
+    except Exception as error:
+        line = getattr(error, "lineno", None) or _line_in(error, path)
+        at = f" in line {line}" if line else ""
+        raise ModelError(f"'{path}' cannot be run{at}: {type(error).__name__}: {error}") from None
+    return models_in(module)
+
+
+def _line_in(error: BaseException, path: Path) -> int | None:
+    lines, trace = [], error.__traceback__
+    while trace is not None:
+        if trace.tb_frame.f_code.co_filename == str(path):
+            lines.append(trace.tb_lineno)
+        trace = trace.tb_next
+    return lines[-1] if lines else None
+
+
+def _from_file(path: Path, cls: str) -> type[Model]:
+    models = {model.__name__: model for model in models_in_file(path)}
+    if not cls:
+        return list(models.values())[-1]
+    if cls not in models:
+        raise UcritError(f"'{path}' has no model '{cls}'{near_match(cls, models)}")
+    return models[cls]
+
+
+def load(vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = None) -> Model:
+    """Return a vehicle: one that is shipped, by name, or one from a TOML file.
+
+    Parameters
+    ----------
+    vehicle
+        ``"caravan"``, or the path of a file (anything ending in ``.toml`` or holding a path separator).
+    changes
+        Parameter values [SI, or text with a unit] that replace those of the file.
+
+    Raises
+    ------
+    UcritError
+        If there is no such vehicle or its file is wrong.
+
+    Examples
+    --------
+    >>> load("caravan").values["U"] > 20
+    True
+    """
+    name = os.fspath(vehicle)
+    if name in vehicle_names():
+        path, where = VEHICLES / f"{name}.toml", name
+    elif name.endswith(".toml") or os.sep in name or Path(name).is_file():
+        path, where = Path(name), name
+    else:
+        raise UcritError(f"there is no vehicle '{name}'{near_match(name, vehicle_names())}")
+    return parse_vehicle(read_text(path), where, lambda model: find_model(model, path.parent), changes)

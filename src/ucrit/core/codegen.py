@@ -1,0 +1,66 @@
+"""Python source from expressions: straight-line functions of floats, arrays or exact fractions.
+
+Shared subexpressions are computed once, so that a factor depending on one array of a grid stays one-dimensional.
+Polynomials with integer coefficients use only ``+ - *``, hence run on `fractions.Fraction` without rounding.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Sequence
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    import sympy
+
+MAX_PRODUCT = 8
+
+
+def generate(name: str, arguments: Sequence[Sequence[sympy.Symbol]], expressions: Iterable[Any]) -> str:
+    """Return the source of ``name(group_1, group_2, ...)``, which returns a tuple with one value an expression.
+
+    Each argument is a sequence whose items are bound to the symbols of one group.
+    """
+    import sympy as sp
+
+    flat = [symbol for group in arguments for symbol in group]
+    renamed = {symbol: sp.Symbol(f"v{i}", **symbol._assumptions_orig) for i, symbol in enumerate(flat)}
+    swapped = [sp.sympify(e).xreplace(renamed) for e in expressions]
+    shared, results = sp.cse(swapped, symbols=(sp.Symbol(f"t{i}") for i in range(10**6)), order="none")
+    printer = _printer()
+    lines, position = [f"def {name}({', '.join(f'g{i}' for i in range(len(arguments)))}):"], 0
+    for i, group in enumerate(arguments):
+        if group:
+            names = ", ".join(f"v{position + j}" for j in range(len(group)))
+            lines.append(f"    {names}, = g{i}")
+        position += len(group)
+    lines += [f"    {symbol} = {printer.doprint(value)}" for symbol, value in shared]
+    values = "".join(f"{printer.doprint(value)}, " for value in results)
+    return "\n".join([*lines, f"    return ({values})", ""])
+
+
+def _printer() -> Any:
+    from sympy.printing.numpy import NumPyPrinter
+
+    class Printer(NumPyPrinter):  # type: ignore[misc]
+        """Powers as products: a general power of an array is fifty times slower, and inexact for fractions."""
+
+        def _print_Pow(self, expr: Any, rational: bool = False) -> str:
+            exponent = expr.exp
+            if exponent.is_Integer and 1 < abs(int(exponent)) <= MAX_PRODUCT:
+                base = self.parenthesize(expr.base, 100)
+                product = "*".join([base] * abs(int(exponent)))
+                return f"({product})" if exponent > 0 else f"(1/({product}))"
+            return str(super()._print_Pow(expr, rational=rational))
+
+    return Printer({"fully_qualified_modules": True})
+
+
+def build(source: str, name: str) -> Callable[..., tuple[Any, ...]]:
+    """Compile generated source and return its function."""
+    import numpy
+
+    namespace: dict[str, Any] = {"numpy": numpy, "math": math}
+    exec(compile(source, f"<generated {name}>", "exec"), namespace)
+    function: Callable[..., tuple[Any, ...]] = namespace[name]
+    return function

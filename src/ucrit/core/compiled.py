@@ -1,0 +1,276 @@
+"""Compiled functions of a model: state matrices, characteristic coefficients and motion for arrays of parameters.
+
+Nothing here imports SymPy unless a piece has never been derived before on this machine (see `ucrit.core.cache`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+from .cache import cached
+from .codegen import build
+from .errors import UcritError
+from .model import Model
+
+Array = npt.NDArray[Any]
+Arguments = Sequence[Any]
+
+
+class StateSpace(NamedTuple):
+    """Arrays of shape (..., rows, columns): ``w' = A w + B u``, ``y = C w + D u``."""
+
+    A: Array
+    B: Array
+    C: Array
+    D: Array
+
+
+@dataclass(frozen=True)
+class Compiled:
+    """Numeric functions of one model class; get it from `compiled`.
+
+    ``direction`` is the sign of the speed for which the equations were derived.
+    """
+
+    model: type[Model]
+    direction: int = 1
+
+    @cached_property
+    def _facts(self) -> Any:
+        from .derive import linear_facts
+
+        return cached(self.model, f"linear{self.direction:+d}", lambda: linear_facts(self.model, self.direction))
+
+    @cached_property
+    def _slopes(self) -> Any:
+        from .derive import slope_facts
+
+        return cached(self.model, f"slopes{self.direction:+d}", lambda: slope_facts(self.model, self.direction))
+
+    @property
+    def order(self) -> int:
+        """Number of states, equal to the degree of the characteristic polynomial."""
+        return int(self._facts["order"])
+
+    @property
+    def structural_zeros(self) -> int:
+        """Number of eigenvalues that are zero whatever the parameters (rigid positions)."""
+        return int(self._facts["zeros"])
+
+    @property
+    def states(self) -> tuple[tuple[str, int], ...]:
+        """Variable name and derivative of every state."""
+        return tuple((name, int(k)) for name, k in self._facts["states"])
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """State names such as ``theta'``."""
+        return tuple(name + "'" * k for name, k in self.states)
+
+    def degrees(self, parameter: str) -> list[int] | None:
+        """Degree of each characteristic coefficient in a parameter, ``None`` if not a polynomial in it."""
+        degrees: list[int] | None = self._facts["degrees"][parameter]
+        return degrees
+
+    @cached_property
+    def coefficients(self) -> Callable[[Arguments], tuple[Any, ...]]:
+        """Function of the parameters giving a_0 ... a_n, each broadcast only over what it depends on."""
+        return build(self._facts["coefficients"], "coefficients")
+
+    @cached_property
+    def _matrices(self) -> Callable[[Arguments], tuple[Any, ...]]:
+        return build(self._facts["matrices"], "matrices")
+
+    @cached_property
+    def _matrix_slopes(self) -> Callable[[Arguments], tuple[Any, ...]]:
+        return build(self._slopes["slopes"], "slopes")
+
+    def blocks(self, arguments: Arguments) -> list[Array]:
+        """Return L, R, Q, Cw, Cz, D of ``L z = R w + Q u``, ``y = Cw w + Cz z + D u`` as stacked arrays."""
+        with np.errstate(all="ignore"):
+            entries = self._matrices(arguments)
+        return _stack(entries, self._facts["shapes"], _shape(arguments))
+
+    def state_space(self, arguments: Arguments) -> StateSpace:
+        """Return A, B, C, D for arrays of parameters.
+
+        Raises
+        ------
+        UcritError
+            If the leading matrix is singular for some of the parameters (no such motion exists).
+        """
+        L, R, Q, Cw, Cz, D = self.blocks(arguments)
+        joined = np.concatenate([R, Q], axis=-1)
+        try:
+            z = np.linalg.solve(L, joined)
+        except np.linalg.LinAlgError:
+            raise UcritError(
+                f"{self.model.model_id()}: the equations cannot be solved for the accelerations with these parameters"
+            ) from None
+        zw, zu = z[..., : R.shape[-1]], z[..., R.shape[-1] :]
+        pick, shift = self._structure
+        A = pick @ zw + shift
+        B = pick @ zu
+        return StateSpace(A, B, Cw + Cz @ zw, D + Cz @ zu)
+
+    @cached_property
+    def _structure(self) -> tuple[Array, Array]:
+        """Matrices that place solved derivatives and chains of integrators in ``w'``."""
+        names = [name for name, _ in self.states]
+        variables: list[str] = self._facts["variables"]
+        pick, shift = np.zeros((self.order, len(variables))), np.zeros((self.order, self.order))
+        for i, (name, _) in enumerate(self.states):
+            if i + 1 < self.order and names[i + 1] == name:
+                shift[i, i + 1] = 1
+            else:
+                pick[i, variables.index(name)] = 1
+        return pick, shift
+
+    def state_slopes(self, arguments: Arguments) -> dict[str, Array]:
+        """Return dA/dp for every parameter p, each of shape (..., n, n)."""
+        L, R, *_ = self.blocks(arguments)
+        with np.errstate(all="ignore"):
+            entries = self._matrix_slopes(arguments)
+        pick, _ = self._structure
+        z = np.linalg.solve(L, R)
+        slopes, position = {}, 0
+        for name in self.model.declaration.parameters:
+            shapes = self._facts["shapes"][:2]
+            count = sum(r * c for r, c in shapes)
+            dL, dR = _stack(entries[position : position + count], shapes, _shape(arguments))
+            slopes[name] = pick @ np.linalg.solve(L, dR - dL @ z)
+            position += count
+        return slopes
+
+
+def _shape(arguments: Arguments) -> tuple[int, ...]:
+    return np.broadcast_shapes(*(np.shape(a) for a in arguments))
+
+
+def _stack(entries: Sequence[Any], shapes: Sequence[Sequence[int]], lead: tuple[int, ...]) -> list[Array]:
+    blocks, position = [], 0
+    for rows, columns in shapes:
+        block = np.empty((*lead, rows * columns))
+        for k in range(rows * columns):
+            block[..., k] = entries[position + k]
+        position += rows * columns
+        blocks.append(block.reshape(*lead, rows, columns))
+    return blocks
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Non-linear right-hand side of a model: ``rhs(w, u, p)`` gives ``w'`` for arrays of states."""
+
+    model: type[Model]
+
+    @cached_property
+    def _facts(self) -> Any:
+        from .derive import motion_facts
+
+        return cached(self.model, "motion", lambda: motion_facts(self.model))
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """State names; positions that a constraint ties to others are kept, unlike in the linear state."""
+        return tuple(self._facts["states"])
+
+    @cached_property
+    def _function(self) -> Callable[..., tuple[Any, ...]]:
+        return build(self._facts["motion"], "motion")
+
+    @cached_property
+    def _outputs(self) -> Callable[..., tuple[Any, ...]]:
+        return build(self._facts["outputs"], "outputs")
+
+    @cached_property
+    def _basic(self) -> Callable[..., tuple[Any, ...]]:
+        return build(self._facts["basic"], "basic")
+
+    def basic(self, arguments: Arguments) -> tuple[Array, Array]:
+        """Return state and inputs on the basic motion."""
+        values = np.array(np.broadcast_arrays(*self._basic(arguments)), dtype=float)
+        states = len(self.labels)
+        return values[:states], values[states:]
+
+    def highest(self, w: Array, u: Array, arguments: Arguments) -> Array:
+        """Return the highest derivatives and algebraic unknowns, states along the first axis of ``w``."""
+        n = int(self._facts["size"])
+        entries = np.broadcast_arrays(*self._function(w, u, arguments), np.zeros(np.shape(w)[1:]))[:-1]
+        flat = np.moveaxis(np.array(entries, dtype=float), 0, -1)
+        M = flat[..., : n * n].reshape(*flat.shape[:-1], n, n)
+        z = np.linalg.solve(M, flat[..., n * n :, None])[..., 0]
+        return np.asarray(np.moveaxis(z, -1, 0))
+
+    def rhs(self, w: Array, u: Array, arguments: Arguments) -> Array:
+        """Return ``w'`` for states ``w`` (first axis), inputs ``u`` (first axis) and parameters."""
+        w = np.asarray(w, dtype=float)
+        z = self.highest(w, u, arguments)
+        return np.array([w[i] if kind == "w" else z[i] for kind, i in self._facts["rates"]])
+
+    def outputs(self, w: Array, u: Array, arguments: Arguments) -> Array:
+        """Return the model's outputs, one a row."""
+        z = self.highest(np.asarray(w, dtype=float), u, arguments)
+        values = self._outputs(w, z, u, arguments)
+        return np.array(np.broadcast_arrays(*values, np.zeros(np.shape(w)[1:]))[:-1], dtype=float)
+
+
+@cache
+def compiled(model: type[Model], direction: int = 1) -> Compiled:
+    """Return the compiled functions of a model class."""
+    return Compiled(model, direction)
+
+
+@cache
+def motion(model: type[Model]) -> Motion:
+    """Return the compiled non-linear motion of a model class."""
+    return Motion(model)
+
+
+def _by_direction(vehicle: Model, evaluate: Callable[[Compiled, Arguments], Sequence[Any]]) -> tuple[Any, ...]:
+    """Evaluate with the equations of the direction that each speed has."""
+    model, arguments = type(vehicle), vehicle.arguments()
+    name = model.declaration.speed
+    if name is None:
+        return tuple(evaluate(compiled(model), arguments))
+    U = np.asarray(arguments[list(model.declaration.parameters).index(name)])
+    if np.all(U > 0) or np.all(U < 0):
+        return tuple(evaluate(compiled(model, 1 if U.flat[0] > 0 else -1), arguments))
+    ahead, back = evaluate(compiled(model, 1), arguments), evaluate(compiled(model, -1), arguments)
+    trailing = 2 if isinstance(ahead, StateSpace) else 0
+    forward = (U > 0).reshape(U.shape + (1,) * trailing)
+    return tuple(np.where(forward, a, b) for a, b in zip(ahead, back, strict=True))
+
+
+def state_space(vehicle: Model) -> StateSpace:
+    """Return the linear state equations of a vehicle, its array parameters spanning leading dimensions.
+
+    Returns
+    -------
+    StateSpace
+        A (..., n, n), B (..., n, m), C (..., p, n), D (..., p, m) in SI units; ``...`` is the shape of
+        ``vehicle.dims``. States are named by ``compiled(type(vehicle)).labels``.
+    """
+    return StateSpace(*_by_direction(vehicle, lambda c, arguments: c.state_space(arguments)))
+
+
+def coefficients(vehicle: Model) -> tuple[Any, ...]:
+    """Return a_0 ... a_n of the characteristic polynomial, each broadcast only over what it depends on."""
+    return _by_direction(vehicle, lambda c, arguments: c.coefficients(arguments))
+
+
+def labels(vehicle: Model) -> tuple[str, ...]:
+    """Return the names of a vehicle's linear states."""
+    return compiled(type(vehicle), direction(vehicle)).labels
+
+
+def direction(vehicle: Model) -> int:
+    """Return the sign of a vehicle's speed, +1 where it has none or several."""
+    name = type(vehicle).declaration.speed
+    return -1 if name is not None and np.all(np.asarray(vehicle.values[name]) < 0) else 1

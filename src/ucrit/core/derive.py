@@ -1,0 +1,67 @@
+"""What is derived once per model and kept on disk: sources of numeric functions and the facts beside them."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+from .codegen import generate
+from .linear import LinearSystem, linear_system
+from .model import Model
+from .nonlinear import solve_for_highest
+from .trace import trace
+
+
+@cache
+def symbolic(model: type[Model], direction: int = 1) -> LinearSystem:
+    """Return the linear system of a model in symbols, derived once per process."""
+    return linear_system(model, direction)
+
+
+def linear_facts(model: type[Model], direction: int) -> dict[str, Any]:
+    """Derive the explicit linear form and the characteristic polynomial of a model."""
+    system = symbolic(model, direction)
+    e, polynomial = system.explicit, system.polynomial
+    parameters = list(system.traced.parameters.values())
+    blocks = (e.L, e.R, e.Q, e.Cw, e.Cz, e.D)
+    names = [chain[0].name for chain in system.traced.q]
+    return {
+        "order": sum(e.orders),
+        "zeros": polynomial.zeros,
+        "variables": names,
+        "states": [(name, k) for name, order in zip(names, e.orders, strict=True) for k in range(order)],
+        "shapes": [block.shape for block in blocks],
+        "degrees": {name: polynomial.degrees(symbol) for name, symbol in system.traced.parameters.items()},
+        "matrices": generate("matrices", [parameters], [entry for block in blocks for entry in block]),
+        "coefficients": generate("coefficients", [parameters], polynomial.expressions),
+    }
+
+
+def slope_facts(model: type[Model], direction: int) -> dict[str, Any]:
+    """Derive how the explicit form changes with every parameter."""
+    system = symbolic(model, direction)
+    parameters = list(system.traced.parameters.values())
+    slopes = [
+        entry.diff(p) for p in parameters for block in (system.explicit.L, system.explicit.R) for entry in block
+    ]
+    return {"slopes": generate("slopes", [parameters], slopes)}
+
+
+def motion_facts(model: type[Model]) -> dict[str, Any]:
+    """Derive the non-linear equations solved for the highest derivatives, and the outputs."""
+    traced = trace(model, direction=None)
+    solved = solve_for_highest(traced)
+    parameters = list(traced.parameters.values())
+    rates: list[tuple[str, int]] = []
+    for i, order in enumerate(traced.orders):
+        rates += [("w", len(rates) + k + 1) for k in range(order - 1)]
+        if order:
+            rates.append(("z", i))
+    return {
+        "size": len(traced.q),
+        "states": [symbol.name for symbol in traced.states],
+        "rates": rates,
+        "motion": generate("motion", [traced.states, traced.u, parameters], [*solved.M, *solved.f]),
+        "outputs": generate("outputs", [traced.states, traced.highest, traced.u, parameters], traced.outputs),
+        "basic": generate("basic", [parameters], [traced.basic.get(s, 0) for s in (*traced.states, *traced.u)]),
+    }

@@ -1,0 +1,74 @@
+"""Dimensional check of traced equations: every sum of like terms, every function of a pure number."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import sympy as sp
+
+from .errors import ModelError
+from .units import Dimension
+
+if TYPE_CHECKING:
+    from .trace import Traced
+
+NUMBER = Dimension()
+
+
+def check_dimensions(traced: Traced) -> None:
+    """Raise `ModelError` naming the equation whose units clash.
+
+    Multipliers of constraints take whatever unit makes their terms fit; a clash elsewhere is still found.
+    """
+    declared = traced.model.declaration
+    known = {symbol: declared.parameters[name].dimension for name, symbol in traced.parameters.items()}
+    per_second = Dimension(0, 0, -1)
+    for variable, chain in zip(declared.variables.values(), traced.q, strict=False):
+        known.update({symbol: variable.dimension.times(per_second, k) for k, symbol in enumerate(chain)})
+    known.update(zip(traced.u, (i.dimension for i in declared.inputs.values()), strict=True))
+    free = {chain[0] for chain in traced.q[len(declared.variables) :]}
+    where = traced.model.model_id()
+    for number, residual in enumerate(traced.residuals, 1):
+        _dimension(residual.xreplace(dict.fromkeys(free, sp.S.Zero)), known, f"{where}: equation {number}")
+    for output, expression in zip(declared.outputs.values(), traced.outputs, strict=True):
+        found = _dimension(expression, known, f"{where}: output {output.name}")
+        if found is not None and found != output.dimension:
+            raise ModelError(f"{where}: output {output.name} is declared in {output.unit} but comes out in {found}")
+
+
+def _dimension(expression: Any, known: dict[Any, Dimension], where: str) -> Dimension | None:
+    """Return the dimension of an expression, ``None`` for zero, which fits anything."""
+    if expression.is_zero:
+        return None
+    if expression.is_Symbol:
+        return known[expression]
+    if expression.is_number:
+        return NUMBER
+    parts = [_dimension(argument, known, where) for argument in expression.args]
+    if expression.is_Mul:
+        total = NUMBER
+        for part in parts:
+            total = total.times(part or NUMBER)
+        return total
+    if expression.is_Pow:
+        if not expression.exp.is_number:
+            raise ModelError(f"{where}: the exponent in '{expression}' is not a number")
+        return NUMBER.times(parts[0] or NUMBER, float(expression.exp))
+    if expression.is_Add or isinstance(expression, sp.Max | sp.Min | sp.atan2):
+        return _alike(expression, parts, where)
+    if isinstance(expression, sp.Abs):
+        return parts[0]
+    if isinstance(expression, sp.Piecewise | sp.sign):
+        return NUMBER if isinstance(expression, sp.sign) else _alike(expression, parts, where)
+    for argument, part in zip(expression.args, parts, strict=True):
+        if part not in (None, NUMBER):
+            raise ModelError(f"{where}: '{expression}' is a function of '{argument}', which has the unit {part}")
+    return NUMBER
+
+
+def _alike(expression: Any, parts: list[Dimension | None], where: str) -> Dimension | None:
+    units = {part for part in parts if part is not None}
+    if len(units) > 1:
+        terms = ", ".join(f"{arg} [{part}]" for arg, part in zip(expression.args, parts, strict=True))
+        raise ModelError(f"{where} combines unlike units: {terms}")
+    return NUMBER if isinstance(expression, sp.atan2) else next(iter(units), None)

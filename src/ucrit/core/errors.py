@@ -1,0 +1,35 @@
+"""Errors that a user can act on: one sentence with the thing, the value and what is allowed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+
+class UcritError(ValueError):
+    """Bad input, told in one sentence; front ends print it without a traceback."""
+
+
+class ModelError(UcritError):
+    """A declaration or an equation of a model that cannot be right."""
+
+
+class MissingExtraError(UcritError):
+    """A feature needs an optional package that is not installed."""
+
+
+def near_match(name: str, allowed: Iterable[str]) -> str:
+    """Return ``"; did you mean 'x'?"`` for the closest allowed name, or the whole list if none is close.
+
+    >>> near_match("C_ff", ["C_f", "C_r"])
+    "; did you mean 'C_f'?"
+    >>> near_match("zzz", ["C_f", "C_r"])
+    '; allowed: C_f, C_r'
+    """
+    from difflib import get_close_matches
+
+    choices = list(allowed)
+    lower = {choice.lower(): choice for choice in choices}
+    match = get_close_matches(name.lower(), lower, n=1, cutoff=0.5)
+    if match:
+        return f"; did you mean '{lower[match[0]]}'?"
+    return f"; allowed: {', '.join(choices) if choices else 'none'}"

@@ -1,0 +1,118 @@
+"""Vehicle files: TOML with a model, a name, a source and parameters in SI units or with a unit.
+
+::
+
+    model = "trailer"
+    name = "Touring caravan"
+    source = "where the numbers come from"
+
+    [parameters]
+    m = 1400             # a number is in the parameter's SI unit
+    U = "100 km/h"       # a text carries its own
+"""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from .errors import UcritError, near_match
+from .model import Model
+
+TEXTS = ("name", "source", "note")
+KEYS = ("model", *TEXTS, "parameters")
+
+
+def read_text(path: Path) -> str:
+    """Return a file's text; raise `UcritError` where it is not there, not a file or not text."""
+    try:
+        return path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        raise UcritError(f"there is no file '{path}'") from None
+    except IsADirectoryError:
+        raise UcritError(f"'{path}' is a folder, not a vehicle file") from None
+    except (UnicodeDecodeError, ValueError):
+        raise UcritError(f"'{path}' is not a text file") from None
+    except OSError as error:
+        raise UcritError(f"'{path}' cannot be read: {error.strerror or error}") from None
+
+
+def parse_vehicle(
+    text: str,
+    where: str,
+    find_model: Callable[[str], type[Model]],
+    changes: Mapping[str, Any] | None = None,
+) -> Model:
+    """Return the vehicle that a file's text describes, with some parameters changed.
+
+    Parameters
+    ----------
+    text
+        The file's content (TOML).
+    where
+        The file's name, for messages.
+    find_model
+        Gives the model class of a name.
+    changes
+        Parameter values that replace or complete the file's.
+
+    Raises
+    ------
+    UcritError
+        One sentence about the first thing that is wrong; nothing is ignored.
+    """
+    try:
+        content = tomllib.loads(text)
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise UcritError(f"{where}: not valid TOML: {error or 'nested too deeply'}") from None
+    for key in content:
+        if key not in KEYS:
+            raise UcritError(f"{where}: there is no entry '{key}'{near_match(key, KEYS)}")
+    for key in ("model", *TEXTS):
+        if not isinstance(content.get(key, ""), str):
+            raise UcritError(f"{where}: {key} must be a text in quotes, got {content[key]!r}")
+    parameters = content.get("parameters")
+    if "model" not in content or not isinstance(parameters, dict):
+        raise UcritError(f"{where}: a vehicle file needs model = \"...\" and a [parameters] table")
+    try:
+        vehicle = find_model(content["model"])(**{**parameters, **(changes or {})})
+    except UcritError as error:
+        raise type(error)(f"{where}: {error}") from None
+    texts = {key: content[key] for key in TEXTS if key in content}
+    return vehicle.with_info(**{"name": Path(where).stem, **texts, "file": where})
+
+
+def write_vehicle(vehicle: Model, model: str | None = None) -> str:
+    """Return a vehicle as the text of a vehicle file, every parameter with its unit and meaning.
+
+    Reading the text back gives an equal vehicle: numbers are written in full.
+    """
+    return vehicle_template(type(vehicle), model, vehicle)
+
+
+def vehicle_template(model: type[Model], name: str | None = None, vehicle: Model | None = None) -> str:
+    """Return the text of a vehicle file for ``model``; without a vehicle its values are left to fill in."""
+    info = vehicle.info if vehicle else None
+    lines = [
+        f"# {model.title()}",
+        f"model = {_quoted(name or model.model_id())}",
+        f"name = {_quoted(info.name if info and info.name else 'my vehicle')}",
+        f"source = {_quoted(info.source if info and info.source else 'where the numbers come from')}",
+    ]
+    if info and info.note:
+        lines.append(f"note = {_quoted(info.note)}")
+    lines += ["", "[parameters]   # a number is in the SI unit shown; a text carries its own: \"110 km/h\""]
+    for key, parameter in model.declaration.parameters.items():
+        comment = f"{parameter.meaning} [{parameter.unit}], {parameter.allowed}"
+        value = vehicle.values[key] if vehicle else parameter.default
+        left = f"{key} = {float(value)!r}" if value is not None else f"# {key} = "
+        lines.append(f"{left:<28} # {comment}")
+    return "\n".join(lines) + "\n"
+
+
+def _quoted(text: str) -> str:
+    escaped = text.replace("\\", "\\\\").replace('"', '\\"')
+    escaped = "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in escaped)
+    return f'"{escaped}"'

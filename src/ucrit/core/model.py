@@ -1,0 +1,282 @@
+"""The model contract: a class declares a vehicle; everything else is derived from the declaration.
+
+A subclass of `Model` declares parameters, variables, inputs and outputs, and states its equations of motion in
+one of three ways (argument names choose what is passed; ``x`` values, ``dx`` and ``ddx`` derivatives, ``u`` inputs):
+
+* ``equations(self, x, dx, ddx, u)`` returns residuals, each of them zero;
+* ``kinetic_energy(self, x, dx)``, ``potential_energy(self, x)`` and ``forces(self, x, dx, u)``, the latter as pairs
+  (force, velocity of the point it acts on, in its direction), from which Lagrange's equations follow;
+  ``constraints(self, x, dx)`` adds velocities that must be zero;
+* ``matrices(self)`` returns linear ``(P_0, P_1, P_2)`` with ``P_0 q + P_1 q' + P_2 q'' = 0``.
+
+``outputs(self, x, dx, ddx, u)`` returns a dictionary, ``basic_motion(self)`` one with the keys ``x``, ``dx`` and ``u``.
+Any method named ``equations_<how>`` is a further derivation of the same vehicle, compared with the first.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from types import MappingProxyType
+from typing import Any, Self, dataclass_transform
+
+import numpy as np
+
+from .declare import Input, Output, Parameter, Quantity, Variable, param, speed
+from .errors import ModelError, UcritError, near_match
+
+ARGUMENTS = {
+    "equations": ("x", "dx", "ddx", "u"),
+    "kinetic_energy": ("x", "dx"),
+    "potential_energy": ("x",),
+    "forces": ("x", "dx", "u"),
+    "constraints": ("x", "dx"),
+    "matrices": (),
+    "outputs": ("x", "dx", "ddx", "u"),
+    "basic_motion": (),
+}
+STATEMENTS = ("equations", "kinetic_energy", "matrices")
+
+
+class Names:
+    """The values of one group of declared names, read as attributes; an unknown name gets a near match."""
+
+    def __init__(self, group: str, values: Mapping[str, Any]) -> None:
+        self._group = group
+        self.__dict__.update(values)
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        known = [key for key in self.__dict__ if not key.startswith("_")]
+        raise ModelError(f"the equations use '{self._group}.{name}', which is not declared{near_match(name, known)}")
+
+
+@dataclass(frozen=True)
+class Declaration:
+    """What a model class declares, in the order of its lines."""
+
+    parameters: Mapping[str, Parameter]
+    variables: Mapping[str, Variable]
+    inputs: Mapping[str, Input]
+    outputs: Mapping[str, Output]
+
+    @property
+    def speed(self) -> str | None:
+        """Name of the speed parameter, if the model has one."""
+        return next((name for name, p in self.parameters.items() if p.is_speed), None)
+
+
+@dataclass(frozen=True)
+class Info:
+    """Who a vehicle is: its name, where its numbers come from, the file it was read from, a remark."""
+
+    name: str = ""
+    source: str = ""
+    file: str = ""
+    note: str = ""
+
+
+@dataclass_transform(kw_only_default=True, frozen_default=True, field_specifiers=(param, speed))
+class Model:
+    """Base of all vehicle models; an instance is one vehicle: frozen, validated, copied with `with_`.
+
+    A parameter given as a one-dimensional array spans a dimension of its own, named after it; `along` lets
+    several arrays share one.
+    """
+
+    declaration: Declaration = Declaration({}, {}, {}, {})
+    info: Info = Info()
+    _values: Mapping[str, float | np.ndarray[Any, Any]]
+    _shared: Mapping[str, str]
+
+    def __init_subclass__(cls, **options: Any) -> None:
+        super().__init_subclass__(**options)
+        cls.declaration = _declare(cls)
+        _check_methods(cls)
+        cls.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
+            [
+                inspect.Parameter(
+                    name,
+                    inspect.Parameter.KEYWORD_ONLY,
+                    default=inspect.Parameter.empty if p.default is None else p.default,
+                    annotation=float,
+                )
+                for name, p in cls.declaration.parameters.items()
+            ]
+        )
+
+    def __init__(self, **values: Any) -> None:
+        declared = type(self).declaration.parameters
+        model = type(self).model_id()
+        for name in values:
+            if name not in declared:
+                raise UcritError(f"{model}: there is no parameter '{name}'{near_match(name, declared)}")
+        checked: dict[str, float | np.ndarray[Any, Any]] = {}
+        for name, parameter in declared.items():
+            value = values.get(name, parameter.default)
+            if value is None:
+                raise UcritError(
+                    f"{model}: {parameter.meaning} {name} is missing; it must be {parameter.allowed}"
+                )
+            checked[name] = parameter.check(value, model)
+        self.__dict__.update(checked, _values=MappingProxyType(checked), _shared=MappingProxyType({}))
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        raise AttributeError(f"a vehicle does not change: use with_({name}=...) to get a changed copy")
+
+    def __reduce__(self) -> Any:
+        return _restore, (type(self), dict(self._values), dict(self._shared), self.info)
+
+    def __eq__(self, other: object) -> bool:
+        if type(self) is not type(other):
+            return NotImplemented
+        assert isinstance(other, Model)
+        same = all(np.array_equal(self._values[name], other._values[name]) for name in self._values)
+        return same and self._shared == other._shared and self.info == other.info
+
+    def __hash__(self) -> int:
+        return hash((type(self), self.info, *(np.asarray(v).tobytes() for v in self._values.values())))
+
+    @classmethod
+    def model_id(cls) -> str:
+        """Name of the model as users type it: the file's name in the catalogue, the class's name elsewhere."""
+        package, _, stem = cls.__module__.rpartition(".")
+        return stem.replace("_", "-") if package == "ucrit.models" else cls.__name__
+
+    @classmethod
+    def title(cls) -> str:
+        """First line of the class's description."""
+        return (inspect.getdoc(cls) or cls.__name__).splitlines()[0]
+
+    @property
+    def values(self) -> Mapping[str, float | np.ndarray[Any, Any]]:
+        """Parameter values [SI] by name, floats or one-dimensional arrays."""
+        return self._values
+
+    @property
+    def dims(self) -> dict[str, np.ndarray[Any, Any]]:
+        """Dimensions that array parameters span: name and coordinate values, in order of declaration."""
+        dims: dict[str, np.ndarray[Any, Any]] = {}
+        for name, value in self._values.items():
+            if isinstance(value, np.ndarray):
+                shared = self._shared.get(name)
+                dims.setdefault(shared or name, np.arange(value.size) if shared else value)
+        return dims
+
+    def arguments(self) -> tuple[float | np.ndarray[Any, Any], ...]:
+        """Parameter values in declared order, arrays shaped to broadcast over `dims`."""
+        dims = list(self.dims)
+        shaped: list[float | np.ndarray[Any, Any]] = []
+        for name, value in self._values.items():
+            if isinstance(value, np.ndarray):
+                axis = dims.index(self._shared.get(name, name))
+                value = value.reshape([-1 if i == axis else 1 for i in range(len(dims))])
+            shaped.append(value)
+        return tuple(shaped)
+
+    def with_(self, **changes: Any) -> Self:
+        """Return a copy with some parameters changed; misspelt names and impossible values are refused."""
+        copy = type(self)(**{**self._values, **changes})
+        kept = {name: dim for name, dim in self._shared.items() if name not in changes}
+        copy.__dict__.update(info=self.info, _shared=MappingProxyType(kept))
+        return copy
+
+    def along(self, dim: str, **changes: Any) -> Self:
+        """Return a copy whose given array parameters, all of one length, vary together along one dimension."""
+        copy = self.with_(**changes)
+        sizes = {name: np.size(copy._values[name]) for name in changes}
+        if len(set(sizes.values())) > 1 or 1 in (np.ndim(copy._values[name]) + 1 for name in changes):
+            raise UcritError(f"parameters along '{dim}' must be arrays of one length, got lengths {sizes}")
+        copy.__dict__["_shared"] = MappingProxyType({**copy._shared, **dict.fromkeys(changes, dim)})
+        return copy
+
+    def with_info(self, **info: str) -> Self:
+        """Return a copy with another name, source, file or note."""
+        copy = self.with_()
+        copy.__dict__["info"] = replace(self.info, **info)
+        return copy
+
+    def __repr__(self) -> str:
+        values = ", ".join(f"{name}={_short(value)}" for name, value in self._values.items())
+        return f"{type(self).__name__}({values})"
+
+    def _repr_html_(self) -> str:
+        from html import escape
+
+        rows = "".join(
+            f"<tr><td><code>{name}</code></td><td>{_short(self._values[name])}</td>"
+            f"<td>{'' if p.unit == '1' else escape(p.unit)}</td><td>{escape(p.meaning)}</td></tr>"
+            for name, p in type(self).declaration.parameters.items()
+        )
+        return f"<b>{escape(self.info.name or type(self).__name__)}</b><table>{rows}</table>"
+
+
+def _restore(cls: type[Model], values: dict[str, Any], shared: dict[str, str], info: Info) -> Model:
+    model = cls(**values)
+    model.__dict__.update(info=info, _shared=MappingProxyType(shared))
+    return model
+
+
+def _short(value: float | np.ndarray[Any, Any]) -> str:
+    if isinstance(value, np.ndarray):
+        return f"[{value[0]:.6g} ... {value[-1]:.6g}, {value.size} values]"
+    return f"{value:.6g}"
+
+
+@dataclass
+class _Found:
+    by_name: dict[str, Any] = field(default_factory=dict)
+
+    def of(self, kind: type[Quantity]) -> Any:
+        return MappingProxyType({k: v for k, v in self.by_name.items() if isinstance(v, kind)})
+
+
+def _declare(cls: type[Model]) -> Declaration:
+    found = _Found()
+    for base in reversed(cls.__mro__):
+        for name, value in vars(base).items():
+            if isinstance(value, Quantity):
+                if hasattr(Model, name) or name.startswith("_"):
+                    raise ModelError(f"{cls.__name__}: a quantity cannot be called '{name}', that name is taken")
+                found.by_name.pop(name, None)
+                found.by_name[name] = replace(value, name=name)
+            elif name in found.by_name:
+                found.by_name.pop(name)  # a base's parameter fixed to a number, or a variable removed
+    declaration = Declaration(
+        found.of(Parameter), found.of(Variable), found.of(Input), found.of(Output)
+    )
+    if sum(p.is_speed for p in declaration.parameters.values()) > 1:
+        raise ModelError(f"{cls.__name__}: only one parameter can be the speed")
+    return declaration
+
+
+def _check_methods(cls: type[Model]) -> None:
+    stated = [name for name in STATEMENTS if hasattr(cls, name)]
+    if cls.declaration.variables and not stated:
+        raise ModelError(f"{cls.__name__}: state the motion by one of {', '.join(STATEMENTS)}")
+    for name in dir(cls):
+        key = "equations" if name.startswith("equations_") else name
+        if key in ARGUMENTS and callable(getattr(cls, name)):
+            for argument in argument_names(getattr(cls, name)):
+                if argument not in ARGUMENTS[key]:
+                    raise ModelError(
+                        f"{cls.__name__}.{name}: there is no argument '{argument}'"
+                        f"{near_match(argument, ARGUMENTS[key])}"
+                    )
+
+
+def argument_names(method: Callable[..., Any]) -> list[str]:
+    """Names of a method's arguments without ``self``."""
+    return [name for name in inspect.signature(method).parameters if name != "self"]
+
+
+def call(method: Callable[..., Any], groups: Mapping[str, Names]) -> Any:
+    """Call a method of a model with the groups of values that its argument names ask for."""
+    return method(**{name: groups[name] for name in argument_names(method)})
+
+
+def as_tuple(value: Any) -> tuple[Any, ...]:
+    """Return equations as a tuple, also when a method returns a single one."""
+    return tuple(value) if isinstance(value, Iterable) else (value,)

@@ -1,0 +1,182 @@
+"""Tracing: run a model's own equations once on SymPy symbols and keep the expressions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import sympy as sp
+
+from .declare import Parameter
+from .dimensions import check_dimensions
+from .errors import ModelError
+from .model import STATEMENTS, Model, Names, as_tuple, call
+
+Expr = Any
+
+
+@dataclass(frozen=True)
+class Traced:
+    """A model's equations in symbols; every residual is zero.
+
+    ``q[i][k]`` is the symbol of the k-th derivative of variable i, up to the variable's order; ``basic`` maps
+    symbols of states, their derivatives and inputs to their values on the basic motion.
+    """
+
+    model: type[Model]
+    parameters: Mapping[str, sp.Symbol]
+    q: tuple[tuple[sp.Symbol, ...], ...]
+    u: tuple[sp.Symbol, ...]
+    residuals: tuple[Expr, ...]
+    outputs: tuple[Expr, ...]
+    basic: Mapping[sp.Symbol, Expr]
+    multipliers: int = 0
+
+    @property
+    def orders(self) -> tuple[int, ...]:
+        """Order of each variable."""
+        return tuple(len(chain) - 1 for chain in self.q)
+
+    @property
+    def states(self) -> tuple[sp.Symbol, ...]:
+        """Symbols of the variables and their derivatives below the highest, variable by variable."""
+        return tuple(symbol for chain in self.q for symbol in chain[:-1])
+
+    @property
+    def highest(self) -> tuple[sp.Symbol, ...]:
+        """Symbols of each variable's highest derivative."""
+        return tuple(chain[-1] for chain in self.q)
+
+    def time_derivative(self, expression: Expr) -> Expr:
+        """Differentiate along the motion by the chain rule; the highest derivatives must not occur."""
+        terms = (sp.diff(expression, low) * high for chain in self.q for low, high in zip(chain, chain[1:], strict=False))
+        return sp.Add(*terms)
+
+
+def parameter_symbol(parameter: Parameter, direction: int | None) -> sp.Symbol:
+    """Return the symbol of a parameter with its declared sign as an assumption."""
+    sign = direction if parameter.is_speed and parameter.sign is None else parameter.sign
+    assumption = {1: {"positive": True}, -1: {"negative": True}, 0: {"nonnegative": True}, None: {"real": True}}
+    return sp.Symbol(parameter.name, **assumption[sign])
+
+
+def symbolic_instance(model: type[Model], symbols: Mapping[str, Any]) -> Model:
+    """Return an instance whose parameters are symbols, past the validation meant for numbers."""
+    instance = object.__new__(model)
+    instance.__dict__.update(symbols, _values=dict(symbols), _shared={})
+    return instance
+
+
+def trace(model: type[Model], direction: int | None = 1, method: str = "") -> Traced:
+    """Run the equations of ``model`` on symbols.
+
+    Parameters
+    ----------
+    model
+        The class to trace.
+    direction
+        +1 for forward speed, -1 for backing up, ``None`` for either; a model without speed ignores it.
+    method
+        Name of a further derivation (``"equations_newton"``); the first one by default.
+
+    Raises
+    ------
+    ModelError
+        If units clash, names are unknown, equations and unknowns differ in number, or the basic motion does not
+        satisfy the equations.
+    """
+    declared = model.declaration
+    symbols = {name: parameter_symbol(p, direction) for name, p in declared.parameters.items()}
+    instance = symbolic_instance(model, symbols)
+    q = [
+        tuple(sp.Symbol(v.label(k), real=True) for k in range(v.order + 1)) for v in declared.variables.values()
+    ]
+    u = tuple(sp.Symbol(name, real=True) for name in declared.inputs)
+    groups = _groups(model, q, u)
+    residuals, multipliers = _residuals(model, instance, groups, q, method)
+    q = [*q, *((m,) for m in multipliers)]
+    if len(residuals) != len(q):
+        raise ModelError(f"{model.model_id()}: {len(residuals)} equations for {len(q)} variables")
+    outputs = call(instance.outputs, groups) if hasattr(model, "outputs") else {}
+    _check_output_names(model, outputs)
+    traced = Traced(
+        model=model,
+        parameters=symbols,
+        q=tuple(q),
+        u=u,
+        residuals=tuple(_rational(r) for r in residuals),
+        outputs=tuple(_rational(outputs[name]) for name in declared.outputs),
+        basic=_basic_motion(model, instance, q, u, declared),
+        multipliers=len(multipliers),
+    )
+    if not method:
+        check_dimensions(traced)
+    _check_basic_motion(traced)
+    return traced
+
+
+def _groups(model: type[Model], q: list[tuple[sp.Symbol, ...]], u: tuple[sp.Symbol, ...]) -> dict[str, Names]:
+    names = list(model.declaration.variables)
+    by_order = [
+        {name: chain[k] for name, chain in zip(names, q, strict=True) if k < len(chain)} for k in range(3)
+    ]
+    groups = {group: Names(group, values) for group, values in zip(("x", "dx", "ddx"), by_order, strict=True)}
+    return {**groups, "u": Names("u", dict(zip(model.declaration.inputs, u, strict=True)))}
+
+
+def _residuals(
+    model: type[Model], instance: Model, groups: dict[str, Names], q: list[tuple[sp.Symbol, ...]], method: str
+) -> tuple[list[Expr], list[sp.Symbol]]:
+    statement = method or next(
+        name for base in model.__mro__ for name in STATEMENTS if name in vars(base)
+    )
+    if statement == "kinetic_energy":
+        from .lagrange import lagrange
+
+        return lagrange(instance, groups, q)
+    if statement == "matrices":
+        matrices = [sp.Matrix(P) for P in instance.matrices()]  # type: ignore[attr-defined]
+        rows = [sp.Matrix([chain[k] if k < len(chain) else 0 for chain in q]) for k in range(len(matrices))]
+        return list(sum((P * row for P, row in zip(matrices, rows, strict=True)), sp.zeros(len(q), 1))), []
+    return [sp.sympify(r) for r in as_tuple(call(getattr(instance, statement), groups))], []
+
+
+def _rational(expression: Expr) -> Expr:
+    expression = sp.sympify(expression)
+    floats = {f: sp.Rational(str(f)) for f in expression.atoms(sp.Float)}
+    return expression.xreplace(floats) if floats else expression
+
+
+def _check_output_names(model: type[Model], outputs: Mapping[str, Any]) -> None:
+    declared = set(model.declaration.outputs)
+    if declared != set(outputs):
+        odd = sorted(declared.symmetric_difference(outputs))
+        raise ModelError(f"{model.model_id()}: outputs declared and returned differ in {', '.join(odd)}")
+
+
+def _basic_motion(
+    model: type[Model], instance: Model, q: list[tuple[sp.Symbol, ...]], u: tuple[sp.Symbol, ...], declared: Any
+) -> dict[sp.Symbol, Expr]:
+    basic: dict[sp.Symbol, Expr] = {symbol: sp.S.Zero for chain in q for symbol in chain} | dict.fromkeys(u, sp.S.Zero)
+    given = instance.basic_motion() if hasattr(model, "basic_motion") else {}
+    names = list(declared.variables)
+    for group, values in given.items():
+        for name, value in values.items():
+            if group == "u":
+                symbol = u[list(declared.inputs).index(name)]
+            else:
+                symbol = q[names.index(name)][("x", "dx", "ddx").index(group)]
+            basic[symbol] = _rational(value)
+    return basic
+
+
+def _check_basic_motion(traced: Traced) -> None:
+    for number, residual in enumerate(traced.residuals, 1):
+        left = residual.xreplace(dict(traced.basic))
+        if left.has(sp.zoo, sp.nan, sp.oo) or (left != 0 and sp.simplify(left) != 0):
+            raise ModelError(
+                f"{traced.model.model_id()}: equation {number} does not hold on the basic motion, {left} is left"
+            )
+
+

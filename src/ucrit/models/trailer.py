@@ -1,0 +1,53 @@
+"""Axes: X along the road, Y to the left; the hitch moves along X with speed U. SI units and radians.
+
+theta is positive when the trailer's rear swings to the left; the axle lies a + b behind the hitch.
+"""
+
+from ..core import Model, coordinate, cos, param, sin, speed
+from ..parts.tires import linear_side_force, slip_angle
+
+
+class Trailer(Model):
+    """Trailer on a laterally flexible hitch with yaw damping (Karnopp 2004, sections 5.III and 5.IV)."""
+
+    m: float = param("kg", "mass", above=0)
+    I_c: float = param("kg m^2", "yaw moment of inertia about the centre of mass", above=0)
+    a: float = param("m", "hitch to centre of mass", above=0)
+    b: float = param("m", "centre of mass to axle, positive when the axle is behind it", above=0)
+    C: float = param("N/rad", "cornering coefficient of the axle", above=0)
+    k: float = param("N/m", "lateral stiffness of the hitch", above=0)
+    c: float = param("N m s/rad", "yaw damping of the hitch", at_least=0)
+    U: float = speed("speed of the towing vehicle", reverse=True)
+
+    x = coordinate("m", "lateral displacement of the hitch", motion="hitch")
+    theta = coordinate("rad", "yaw angle of the trailer", motion="yaw")
+
+    def kinetic_energy(self, x, dx):
+        forward = self.U + self.a * dx.theta * sin(x.theta)
+        left = dx.x + self.a * dx.theta * cos(x.theta)
+        return self.m * (forward**2 + left**2) / 2 + self.I_c * dx.theta**2 / 2
+
+    def potential_energy(self, x):
+        return self.k * x.x**2 / 2
+
+    def axle_velocity(self, x, dx):
+        lateral = self.U * sin(x.theta) + dx.x * cos(x.theta) + (self.a + self.b) * dx.theta
+        longitudinal = self.U * cos(x.theta) - dx.x * sin(x.theta)
+        return lateral, longitudinal
+
+    def forces(self, x, dx):
+        lateral, longitudinal = self.axle_velocity(x, dx)
+        return (
+            (linear_side_force(self.C, slip_angle(lateral, longitudinal)), lateral),
+            (-self.c * dx.theta, dx.theta),
+        )
+
+    def equations_newton(self, x, dx, ddx):
+        lateral, longitudinal = self.axle_velocity(x, dx)
+        Y = linear_side_force(self.C, slip_angle(lateral, longitudinal))
+        acceleration = ddx.x + self.a * (ddx.theta * cos(x.theta) - dx.theta**2 * sin(x.theta))
+        about_hitch = self.m * self.a * (self.a * ddx.theta + ddx.x * cos(x.theta))
+        return (
+            self.m * acceleration - (Y * cos(x.theta) - self.k * x.x),
+            self.I_c * ddx.theta + about_hitch - ((self.a + self.b) * Y - self.c * dx.theta),
+        )

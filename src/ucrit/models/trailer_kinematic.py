@@ -1,0 +1,19 @@
+"""Axes: X along the road, Y to the left; the hitch moves along X with speed U. SI units and radians.
+
+theta is positive when the trailer's rear swings to the left; the axle lies a + b behind the hitch.
+"""
+
+from ..core import Model, param, sin, speed, state
+
+
+class TrailerKinematic(Model):
+    """Trailer whose hitch follows a straight line and whose wheels do not slip (Karnopp 2004, section 5.II)."""
+
+    a: float = param("m", "hitch to centre of mass", above=0)
+    b: float = param("m", "centre of mass to axle, positive when the axle is behind it", above=0)
+    U: float = speed("speed of the towing vehicle", reverse=True)
+
+    theta = state("rad", "yaw angle of the trailer", motion="yaw")
+
+    def equations(self, x, dx):
+        return (self.a + self.b) * dx.theta + self.U * sin(x.theta)

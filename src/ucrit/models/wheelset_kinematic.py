@@ -1,0 +1,24 @@
+"""Axes: x along the track, y to the left, psi positive counter-clockwise seen from above. SI units and radians."""
+
+from ..core import Model, param, sin, state
+
+
+class WheelsetKinematic(Model):
+    """Tapered wheelset rolling without slip on rails (Karnopp 2004, section 1.II)."""
+
+    Psi: float = param("rad", "taper angle of the treads, positive when the flange side is larger")
+    r_0: float = param("m", "rolling radius in the central position", above=0)
+    l: float = param("m", "distance between the contact points", above=0)
+    Omega: float = param("rad/s", "spin of the wheels", above=0)
+
+    y = state("m", "lateral displacement of the wheelset", motion="lateral")
+    psi = state("rad", "yaw angle of the wheelset", motion="yaw")
+
+    def equations(self, x, dx):
+        left = (self.r_0 + self.Psi * x.y) * self.Omega
+        right = (self.r_0 - self.Psi * x.y) * self.Omega
+        centre = (left + right) / 2
+        return (
+            dx.y - centre * sin(x.psi),
+            dx.psi - (right - left) / self.l,
+        )

@@ -1,0 +1,1 @@
+"""Force laws that vehicles share, as plain functions of floats, arrays or symbols."""
