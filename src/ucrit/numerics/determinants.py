@@ -3,7 +3,6 @@
 from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import lcm
-from numbers import Integral, Rational
 from typing import Any
 
 from ucrit.numerics.exact import interpolate, rational
@@ -127,16 +126,14 @@ def hurwitz_polynomial(coefficients: Sequence[Sequence[Any]]) -> list[Fraction]:
     scale = lcm(*(x.denominator for polynomial in exact for x in polynomial))
     integers = [[x.numerator * (scale // x.denominator) for x in polynomial] for polynomial in exact]
     size = len(integers) - 2
-    powers = [row[:size] for row in hurwitz_matrix(range(len(integers)))[:size]]
-    degrees = hurwitz_matrix([max(len(polynomial) - 1, 0) for polynomial in integers])
-    by_row = sum(max(row[:size]) for row in degrees[:size])
-    by_column = sum(max(column[:size]) for column in list(zip(*degrees, strict=True))[:size])
-    nodes = [(k + 1) // 2 * (-1) ** k for k in range(min(by_row, by_column) + 1)]  # 0, -1, 1, -2, 2 ...
-    minors = []
-    for node in nodes:
-        a = [_at_integer(polynomial, node) for polynomial in integers]
-        minors.append(determinant([row[:size] for row in hurwitz_matrix(a)[:size]]))
-    del powers
+
+    def corner(a: Sequence[int]) -> list[list[int]]:
+        return [row[:size] for row in hurwitz_matrix(a)[:size]]
+
+    degrees = corner([max(len(polynomial) - 1, 0) for polynomial in integers])
+    degree = min(sum(map(max, degrees)), sum(map(max, zip(*degrees, strict=True))))
+    nodes = [(k + 1) // 2 * (-1) ** k for k in range(degree + 1)]  # 0, -1, 1, -2, 2 ... keep the numbers short
+    minors = [determinant(corner([_at_integer(polynomial, x) for polynomial in integers])) for x in nodes]
     return [x / scale**size for x in interpolate(nodes, minors)]
 
 
