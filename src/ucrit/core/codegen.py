@@ -56,11 +56,25 @@ def _printer() -> Any:
     return Printer({"fully_qualified_modules": True})
 
 
-def build(source: str, name: str) -> Callable[..., tuple[Any, ...]]:
-    """Compile generated source and return its function."""
+def build(source: str, name: str, *, exact: bool = False) -> Callable[..., tuple[Any, ...]]:
+    """Compile generated source and return its function.
+
+    With ``exact=True`` it runs on fractions; functions other than arithmetic are then rounded to doubles.
+    """
     import numpy
 
-    namespace: dict[str, Any] = {"numpy": numpy, "math": math}
+    namespace: dict[str, Any] = {"numpy": _ExactFunctions() if exact else numpy, "math": math}
     exec(compile(source, f"<generated {name}>", "exec"), namespace)
     function: Callable[..., tuple[Any, ...]] = namespace[name]
     return function
+
+
+class _ExactFunctions:
+    """NumPy's functions for fractions: rounded to a double, then taken as that exact number."""
+
+    def __getattr__(self, name: str) -> Callable[..., Any]:
+        import numpy
+        from fractions import Fraction
+
+        value = getattr(numpy, name)
+        return (lambda *x: Fraction(float(value(*map(float, x))))) if callable(value) else Fraction(value)

@@ -84,6 +84,11 @@ class Compiled:
         return build(self._facts["coefficients"], "coefficients")
 
     @cached_property
+    def exact_coefficients(self) -> Callable[[Arguments], tuple[Any, ...]]:
+        """The same function for `fractions.Fraction`: exact, but for functions such as cosines of parameters."""
+        return build(self._facts["coefficients"], "coefficients", exact=True)
+
+    @cached_property
     def _matrices(self) -> Callable[[Arguments], tuple[Any, ...]]:
         return build(self._facts["matrices"], "matrices")
 

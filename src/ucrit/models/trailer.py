@@ -19,7 +19,7 @@ class Trailer(Model):
     c: float = param("N m s/rad", "yaw damping of the hitch", at_least=0)
     U: float = speed("speed of the towing vehicle", reverse=True)
 
-    x = coordinate("m", "lateral displacement of the hitch", motion="hitch")
+    x = coordinate("m", "lateral displacement of the hitch", motion="lateral")
     theta = coordinate("rad", "yaw angle of the trailer", motion="yaw")
 
     def kinetic_energy(self, x, dx):

@@ -13,12 +13,14 @@ Division = Callable[[Any, Any], Any]
 def determinant(matrix: Sequence[Sequence[Any]], divide: Division | None = None) -> Any:
     """The determinant of a square matrix over any integral domain, without fractions.
 
-    Fraction-free elimination (Bareiss, Mathematics of Computation 22, 1968, pp. 565-578): every division is exact.
+    Fraction-free elimination (Bareiss, Mathematics of Computation 22, 1968, pp. 565-578): every division is
+    exact.
 
     Parameters
     ----------
     matrix : n rows of n elements that can be added, multiplied and compared with 0
-    divide : exact division of two elements; not needed for numbers nor for elements of a SymPy polynomial ring
+    divide : exact division of two elements; not needed for numbers nor for elements of a SymPy polynomial
+        ring
 
     Raises
     ------
@@ -64,13 +66,15 @@ def hurwitz_matrix(a: Sequence[Any]) -> list[list[Any]]:
 def hurwitz_determinants(a: Sequence[Any], divide: Division | None = None) -> list[Any]:
     """The n leading principal minors H_1 ... H_n of the Hurwitz matrix.
 
-    With ``a[n] > 0`` every root of the polynomial has a negative real part exactly if all of them are positive
-    (Hurwitz 1895; Gantmacher, The Theory of Matrices 2, ch. XV sec. 6).
+    With ``a[n] > 0`` every root of the polynomial has a negative real part exactly if all of them are
+    positive (Hurwitz 1895; Gantmacher, The Theory of Matrices 2, ch. XV sec. 6).
 
     Parameters
     ----------
-    a : n + 1 coefficients in ascending powers, elements of any integral domain (exact numbers, SymPy ring elements)
-    divide : exact division of two elements; not needed for numbers nor for elements of a SymPy polynomial ring
+    a : n + 1 coefficients in ascending powers, elements of any integral domain (exact numbers, SymPy ring
+        elements)
+    divide : exact division of two elements; not needed for numbers nor for elements of a SymPy polynomial
+        ring
 
     Raises
     ------
@@ -89,7 +93,9 @@ def hurwitz_determinants(a: Sequence[Any], divide: Division | None = None) -> li
     minors: list[Any] = []
     for k in range(len(rows)):
         if minors and minors[-1] == 0:  # elimination without row swaps ends here
-            minors += [determinant([row[:m] for row in matrix[:m]], divide) for m in range(k + 1, len(rows) + 1)]
+            minors += [
+                determinant([row[:m] for row in matrix[:m]], divide) for m in range(k + 1, len(rows) + 1)
+            ]
             break
         minors.append(rows[k][k])
         _eliminate(rows, k, minors[-2] if k else None, divide)
@@ -99,8 +105,8 @@ def hurwitz_determinants(a: Sequence[Any], divide: Division | None = None) -> li
 def hurwitz_polynomial(coefficients: Sequence[Sequence[Any]]) -> list[Fraction]:
     """The Hurwitz determinant H_(n-1) of a polynomial in s whose coefficients are polynomials in a parameter p.
 
-    With all coefficients positive, H_(n-1) vanishes first where a pair of roots reaches the imaginary axis; it is
-    the product of the sums of every two roots, up to sign and powers of ``a_n`` (Orlando 1911).
+    With all coefficients positive, H_(n-1) vanishes first where a pair of roots reaches the imaginary axis;
+    it is the product of the sums of every two roots, up to sign and powers of ``a_n`` (Orlando 1911).
 
     Parameters
     ----------
@@ -132,7 +138,9 @@ def hurwitz_polynomial(coefficients: Sequence[Sequence[Any]]) -> list[Fraction]:
 
     degrees = corner([max(len(polynomial) - 1, 0) for polynomial in integers])
     degree = min(sum(map(max, degrees)), sum(map(max, zip(*degrees, strict=True))))
-    nodes = [(k + 1) // 2 * (-1) ** k for k in range(degree + 1)]  # 0, -1, 1, -2, 2 ... keep the numbers short
+    nodes = [
+        (k + 1) // 2 * (-1) ** k for k in range(degree + 1)
+    ]  # 0, -1, 1, -2, 2 ... keep the numbers short
     minors = [determinant(corner([_at_integer(polynomial, x) for polynomial in integers])) for x in nodes]
     return [x / scale**size for x in interpolate(nodes, minors)]
 

@@ -1,8 +1,9 @@
 """Exact polynomials in one variable over the rational numbers.
 
-A polynomial is a sequence of coefficients in ascending powers, ``a[0] + a[1] x + ... + a[n] x^n``; the zero polynomial
-is ``[]``. Coefficients may be int, float, Fraction or SymPy rationals; a float means exactly the number it stores.
-Results that are defined up to a factor are primitive integer polynomials, because integers are what Python does fast.
+A polynomial is a sequence of coefficients in ascending powers, ``a[0] + a[1] x + ... + a[n] x^n``; the zero
+polynomial is ``[]``. Coefficients may be int, float, Fraction or SymPy rationals; a float means exactly the
+number it stores. Results that are defined up to a factor are primitive integer polynomials, because integers
+are what Python does fast.
 """
 
 from collections.abc import Sequence
@@ -116,8 +117,8 @@ def divmod_(p: Sequence[Any], q: Sequence[Any]) -> tuple[list[Fraction], list[Fr
 def gcd(p: Sequence[Any], q: Sequence[Any]) -> list[int]:
     """The greatest common divisor of `p` and `q` as a primitive integer polynomial with positive leading coefficient.
 
-    Primitive remainder sequence (Knuth, The Art of Computer Programming 2, sec. 4.6.1, algorithm E), after a test modulo a
-    prime that recognises coprime polynomials. ``gcd([], []) == []``.
+    Primitive remainder sequence (Knuth, The Art of Computer Programming 2, sec. 4.6.1, algorithm E), after a
+    test modulo a prime that recognises coprime polynomials. ``gcd([], []) == []``.
 
     Examples
     --------
@@ -199,7 +200,9 @@ def interpolate(nodes: Sequence[Any], values: Sequence[Any]) -> list[Fraction]:
     x = [rational(node) for node in nodes]
     table = [rational(value) for value in values]
     if len(table) != len(x):
-        raise ValueError(f"{len(x)} nodes but {len(table)} values: interpolation needs one value for each node")
+        raise ValueError(
+            f"{len(x)} nodes but {len(table)} values: interpolation needs one value for each node"
+        )
     if len(set(x)) < len(x):
         raise ValueError(f"the {len(x)} nodes are not distinct: every node may occur once")
     for order in range(1, len(x)):
@@ -207,7 +210,9 @@ def interpolate(nodes: Sequence[Any], values: Sequence[Any]) -> list[Fraction]:
             table[k] = (table[k] - table[k - 1]) / (x[k] - x[k - order])
     p: list[Fraction] = []
     for node, value in zip(reversed(x), reversed(table), strict=True):
-        p = [shifted - node * kept for shifted, kept in zip([Fraction(0), *p], [*p, Fraction(0)], strict=True)]
+        p = [
+            shifted - node * kept for shifted, kept in zip([Fraction(0), *p], [*p, Fraction(0)], strict=True)
+        ]
         p[0] += value
     while p and not p[-1]:
         p.pop()

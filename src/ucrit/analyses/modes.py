@@ -1,0 +1,224 @@
+"""Modes of motion: eigenvalues, frequency, damping, growth, and which states take part."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..core.compiled import labels, state_space
+from ..core.errors import UcritError
+from ..core.model import Model
+
+Array = npt.NDArray[Any]
+
+
+
+@dataclass(frozen=True)
+class Mode:
+    """One real mode or one pair of conjugate modes of a vehicle.
+
+    Attributes
+    ----------
+    name
+        The motion that takes part most, and how it goes: ``yaw oscillation``, ``lateral divergence``.
+    eigenvalue
+        [1/s]; of a pair the one with the positive imaginary part.
+    participation
+        Share of each state, by name; independent of units, adds up to 1.
+    shape
+        Complex amplitude of each state, by name, the largest variable scaled to 1.
+    """
+
+    name: str
+    eigenvalue: complex
+    participation: dict[str, float]
+    shape: dict[str, complex]
+
+    @property
+    def oscillates(self) -> bool:
+        """Whether this is a pair of complex eigenvalues."""
+        return self.eigenvalue.imag != 0
+
+    @property
+    def frequency_hz(self) -> float:
+        """Damped frequency [Hz], 0 for a real mode."""
+        return self.eigenvalue.imag / (2 * math.pi)
+
+    @property
+    def damping_ratio(self) -> float:
+        """``-Re/|eigenvalue|``; 1 for a decaying, -1 for a growing real mode, nan for a zero eigenvalue."""
+        size = abs(self.eigenvalue)
+        return -self.eigenvalue.real / size if size else math.nan
+
+    @property
+    def time_to_half(self) -> float:
+        """Time [s] in which a decaying mode halves, ``inf`` for one that does not decay."""
+        return math.log(2) / -self.eigenvalue.real if self.eigenvalue.real < 0 else math.inf
+
+    @property
+    def time_to_double(self) -> float:
+        """Time [s] in which a growing mode doubles, ``inf`` for one that does not grow."""
+        return math.log(2) / self.eigenvalue.real if self.eigenvalue.real > 0 else math.inf
+
+
+@dataclass(frozen=True)
+class Modes:
+    """Eigenvalues and eigenvectors of a vehicle; leading dimensions are those of its array parameters.
+
+    Attributes
+    ----------
+    eigenvalues
+        Shape (..., n), ordered from the least to the most stable, conjugates together, positive frequency first.
+    vectors
+        Shape (..., n, n), right eigenvectors as columns.
+    participation
+        Shape (..., n, n): share of state i (row) in mode k (column).
+    """
+
+    vehicle: Model
+    labels: tuple[str, ...]
+    eigenvalues: Array
+    vectors: Array
+    participation: Array
+
+    def __iter__(self) -> Iterator[Mode]:
+        return iter(self.list())
+
+    def __len__(self) -> int:
+        return len(self.list())
+
+    def list(self) -> list[Mode]:
+        """Return the modes of a vehicle with scalar parameters, one entry for a conjugate pair."""
+        if self.eigenvalues.ndim != 1:
+            raise UcritError("modes of a vehicle with array parameters are arrays: use .eigenvalues and .participation")
+        kept = [k for k, value in enumerate(self.eigenvalues) if value.imag >= 0]
+        names = _distinct([(self._name(k), self.eigenvalues[k]) for k in kept])
+        return [
+            Mode(
+                name,
+                complex(self.eigenvalues[k]),
+                dict(zip(self.labels, map(float, self.participation[:, k]), strict=True)),
+                dict(zip(self.labels, map(complex, self._shape(k)), strict=True)),
+            )
+            for name, k in zip(names, kept, strict=True)
+        ]
+
+    def _shape(self, k: int) -> Array:
+        """Scale a vector by its largest variable; rates follow."""
+        values = np.array([v if "'" not in label else 0 for v, label in zip(self.vectors[:, k], self.labels, strict=True)])
+        return np.asarray(self.vectors[:, k] / values[np.argmax(abs(values))])
+
+    def _name(self, k: int) -> str:
+        share: dict[str, float] = {}
+        for label, part in zip(self.labels, self.participation[:, k], strict=True):
+            base = label.rstrip("'")
+            share[base] = share.get(base, 0.0) + float(part)
+        top = max(share, key=lambda name: share[name])
+        variable = type(self.vehicle).declaration.variables.get(top)
+        motion = (variable and (variable.motion or variable.meaning)) or top
+        value = complex(self.eigenvalues[k])
+        if value == 0:
+            return f"{motion} position"
+        return f"{motion} {'oscillation' if value.imag else 'decay' if value.real < 0 else 'divergence'}"
+
+    @property
+    def growth(self) -> Array:
+        """Largest real part [1/s] over all modes but rigid positions, of shape (...)."""
+        return np.asarray(np.where(self.eigenvalues == 0, -np.inf, self.eigenvalues.real).max(axis=-1))
+
+    def __str__(self) -> str:
+        return "\n".join(
+            f"{mode.name:<24} {mode.eigenvalue.real:+.6g}{mode.eigenvalue.imag:+.6g}j" for mode in self.list()
+        )
+
+    def _repr_html_(self) -> str:
+        rows = "".join(
+            f"<tr><td>{mode.name}</td><td>{mode.eigenvalue:.6g}</td><td>{mode.frequency_hz:.4g}</td>"
+            f"<td>{mode.damping_ratio:.4g}</td></tr>"
+            for mode in self.list()
+        )
+        head = "<tr><th>mode</th><th>eigenvalue [1/s]</th><th>frequency [Hz]</th><th>damping ratio</th></tr>"
+        return f"<table>{head}{rows}</table>"
+
+
+def modes(vehicle: Model) -> Modes:
+    """Return eigenvalues, eigenvectors and participation of a vehicle's linear motion.
+
+    Parameters
+    ----------
+    vehicle
+        Its array parameters span leading dimensions of the result.
+
+    Returns
+    -------
+    Modes
+        Iterating over it gives named `Mode` objects when all parameters are scalars. Accuracy is that of LAPACK's
+        balanced QR; eigenvalues that are zero whatever the parameters are returned as exact zeros.
+
+    Examples
+    --------
+    >>> from ucrit import load, modes
+    >>> [round(mode.eigenvalue.real, 5) for mode in modes(load("bmw-320i"))]
+    [-21.50352, -21.58519]
+    """
+    A = state_space(vehicle).A
+    if not np.all(np.isfinite(A)):
+        raise UcritError(f"{type(vehicle).model_id()}: the equations are singular for these parameters")
+    values, vectors = np.linalg.eig(A)
+    values, vectors = values.astype(complex), vectors.astype(complex)
+    order = _order(values)
+    values = np.take_along_axis(values, order, axis=-1)
+    vectors = np.take_along_axis(vectors, order[..., None, :], axis=-1)
+    values = _with_exact_zeros(vehicle, values)
+    return Modes(vehicle, labels(vehicle), values, vectors, _participation(vectors))
+
+
+def _order(values: Array) -> Array:
+    """Sort by falling real part; a pair's two members share one rounded key, positive frequency first."""
+    scale = np.abs(values).max(axis=-1, keepdims=True) + np.finfo(float).tiny
+    real = np.round(values.real / scale, 12)
+    return np.lexsort((-values.imag, np.abs(values.imag), -real), axis=-1)
+
+
+def _with_exact_zeros(vehicle: Model, values: Array) -> Array:
+    """Set the structural zeros, the smallest of the eigenvalues, to zero."""
+    from ..core.compiled import compiled, direction
+
+    count = compiled(type(vehicle), direction(vehicle)).structural_zeros
+    if not count:
+        return values
+    smallest = np.argsort(np.abs(values), axis=-1)[..., :count]
+    cleared = values.copy()
+    np.put_along_axis(cleared, smallest, 0, axis=-1)
+    return cleared
+
+
+def _participation(vectors: Array) -> Array:
+    """Share of each state in each mode, ``|left * right|``; by the right vectors alone where none are left."""
+    try:
+        left = np.swapaxes(np.linalg.inv(vectors), -1, -2)
+        product = np.abs(left * vectors)
+        defective = ~np.isfinite(product).all(axis=(-1, -2), keepdims=True)
+    except np.linalg.LinAlgError:
+        product, defective = np.abs(vectors), np.zeros(vectors.shape[:-2] + (1, 1), dtype=bool)
+    product = np.where(defective, np.abs(vectors), product)
+    return np.asarray(product / product.sum(axis=-2, keepdims=True))
+
+
+def _distinct(named: list[tuple[str, complex]]) -> list[str]:
+    """Tell modes of one name apart: slow and fast for two, numbers by modulus for more."""
+    names = [name for name, _ in named]
+    result = list(names)
+    for name in set(names):
+        same = sorted((i for i, n in enumerate(names) if n == name), key=lambda i: abs(named[i][1]))
+        if len(same) == 2 and abs(named[same[0]][1]) < abs(named[same[1]][1]):
+            result[same[0]], result[same[1]] = f"slow {name}", f"fast {name}"
+        elif len(same) > 1:
+            for number, i in enumerate(same, 1):
+                result[i] = f"{name} {number}"
+    return result

@@ -1,0 +1,94 @@
+"""Factors of parameter polynomials: splitting, signs that the declared bounds settle, and a readable form."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+import sympy as sp
+from sympy.polys.rings import PolyElement
+
+
+def factors(poly: PolyElement) -> tuple[int, list[tuple[PolyElement, int]]]:
+    """Return the integer content and the irreducible factors with their multiplicities.
+
+    python-flint does it where it is installed (some hundred times faster), SymPy otherwise.
+    """
+    try:
+        import flint
+    except ImportError:
+        content, found = poly.factor_list()
+        return int(content), [(f, int(m)) for f, m in found]
+    ring = poly.ring
+    if not ring.ngens:
+        return int(poly.LC), []
+    context = flint.fmpz_mpoly_ctx.get([f"v{i}" for i in range(ring.ngens)], "lex")
+    content, found = context.from_dict({tuple(m): int(c) for m, c in poly.terms()}).factor()
+    return int(content), [(ring.from_dict(_exponents(f)), int(m)) for f, m in found]
+
+
+def _exponents(poly: Any) -> dict[tuple[int, ...], int]:
+    return {tuple(int(e) for e in monom): int(c) for monom, c in poly.to_dict().items()}
+
+
+def definite_sign(poly: PolyElement) -> int | None:
+    """Return +1 or -1 where the bounds of the parameters settle the sign, else ``None``.
+
+    Settled means that all terms have one sign and at least one of them cannot vanish. That is sufficient, not
+    necessary: a polynomial that is positive for a subtler reason is reported as undecided.
+    """
+    signs, strict = set(), False
+    for monom, c in poly.terms():
+        powers = [_sign_of_power(g, e) for g, e in zip(poly.ring.symbols, monom, strict=True) if e]
+        if any(sign is None for sign, _ in powers):
+            return None
+        signs.add(math.prod((sign or 0 for sign, _ in powers), start=1 if c > 0 else -1))
+        strict = strict or all(surely for _, surely in powers)
+    return signs.pop() if len(signs) == 1 and strict else None
+
+
+def _sign_of_power(generator: Any, exponent: int) -> tuple[int | None, bool]:
+    """Sign of a power (0 counts as +1) and whether it surely differs from zero."""
+    if generator.is_positive:
+        return 1, True
+    if generator.is_negative:
+        return (-1) ** exponent, True
+    if generator.is_nonnegative or exponent % 2 == 0:
+        return 1, False
+    return None, False
+
+
+def readable(poly: PolyElement) -> Any:
+    """Return a polynomial as the shortest expression found by collecting it in one of its parameters."""
+    expression = poly.as_expr()
+    best, cost = expression, sp.count_ops(expression)
+    candidates = [sp.collect(expression, g, sp.factor) for g in poly.ring.symbols if expression.has(g)]
+    for candidate in [sp.factor(expression), *candidates]:
+        ops = sp.count_ops(candidate)
+        if ops < cost:
+            best, cost = candidate, ops
+    return best
+
+
+def readable_ratio(numerator: PolyElement, denominator: PolyElement) -> Any:
+    """Return a quotient with both parts factored, whole-number contents reduced, and signs where they read best."""
+    if not numerator:
+        return sp.S.Zero
+    (cn, above), (cd, below) = factors(numerator), factors(denominator)
+    divisor = math.gcd(cn, cd)
+    cn, cd = cn // divisor, cd // divisor
+    for parts in (above, below):
+        for i, (f, m) in enumerate(parts):
+            if definite_sign(f) == -1:
+                parts[i] = (-f, m)
+                if m % 2:
+                    cn = -cn
+    if cn * cd < 0 and any(m % 2 and definite_sign(f) is None for f, m in below):
+        i = next(i for i, (f, m) in enumerate(below) if m % 2 and definite_sign(f) is None)
+        below[i] = (-below[i][0], below[i][1])
+        cn = -cn
+    if cd < 0:
+        cn, cd = -cn, -cd
+    top = sp.Mul(*(readable(f) ** m for f, m in above))
+    bottom = sp.Mul(*(readable(f) ** m for f, m in below))
+    return sp.Rational(cn, cd) * top / bottom
