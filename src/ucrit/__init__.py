@@ -20,9 +20,12 @@ _PUBLIC = {
     "state": "core",
     "load": "catalogue",
     "find_model": "catalogue",
+    "analyze": "analyses.analyze",
     "criteria": "analyses.criteria",
     "critical": "analyses.critical",
     "modes": "analyses.modes",
+    "remedies": "analyses.remedies",
+    "verdict": "analyses.verdict",
 }
 
 

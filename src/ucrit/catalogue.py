@@ -104,7 +104,9 @@ def _from_file(path: Path, cls: str) -> type[Model]:
     return models[cls]
 
 
-def load(vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = None) -> Model:
+def load(
+    vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = None, at_speed: Any = None
+) -> Model:
     """Return a vehicle: one that is shipped, by name, or one from a TOML file.
 
     Parameters
@@ -113,6 +115,8 @@ def load(vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = No
         ``"caravan"``, or the path of a file (anything ending in ``.toml`` or holding a path separator).
     changes
         Parameter values [SI, or text with a unit] that replace those of the file.
+    at_speed
+        Value for the parameter that is the model's speed, whatever it is called.
 
     Raises
     ------
@@ -131,4 +135,4 @@ def load(vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = No
         path, where = Path(name), name
     else:
         raise UcritError(f"there is no vehicle '{name}'{near_match(name, vehicle_names())}")
-    return parse_vehicle(read_text(path), where, lambda model: find_model(model, path.parent), changes)
+    return parse_vehicle(read_text(path), where, lambda model: find_model(model, path.parent), changes, at_speed)

@@ -64,6 +64,11 @@ class Compiled:
         return int(self._facts["zeros"])
 
     @property
+    def undamped(self) -> bool:
+        """Whether the characteristic polynomial is even whatever the parameters: no motion can decay."""
+        return bool(self._facts["undamped"]) and self.order > self.structural_zeros
+
+    @property
     def states(self) -> tuple[tuple[str, int], ...]:
         """Variable name and derivative of every state."""
         return tuple((name, int(k)) for name, k in self._facts["states"])
@@ -268,6 +273,20 @@ def state_space(vehicle: Model) -> StateSpace:
 def coefficients(vehicle: Model) -> tuple[Any, ...]:
     """Return a_0 ... a_n of the characteristic polynomial, each broadcast only over what it depends on."""
     return _by_direction(vehicle, lambda c, arguments: c.coefficients(arguments))
+
+
+def deciding_coefficients(vehicle: Model) -> tuple[Any, ...]:
+    """Return ascending coefficients of the polynomial whose roots decide stability.
+
+    Structural zeros, harmless, are divided out. Where no motion can decay, ``p + p'`` takes the place of the even ``p``:
+    its roots lie in the left half plane if and only if those of p are simple and on the imaginary axis
+    (F. R. Gantmacher, The Theory of Matrices (1959), volume 2, chapter XV, sections 7 and 16).
+    """
+    functions = compiled(type(vehicle), direction(vehicle))
+    a = coefficients(vehicle)[functions.structural_zeros :]
+    if not functions.undamped:
+        return a
+    return tuple(c + (k + 1) * a[k + 1] if k + 1 < len(a) else c for k, c in enumerate(a))
 
 
 def labels(vehicle: Model) -> tuple[str, ...]:

@@ -28,6 +28,7 @@ def linear_facts(model: type[Model], direction: int) -> dict[str, Any]:
     return {
         "order": sum(e.orders),
         "zeros": polynomial.zeros,
+        "undamped": not any(polynomial.coefficients[polynomial.zeros + 1 :: 2]),
         "variables": names,
         "states": [(name, k) for name, order in zip(names, e.orders, strict=True) for k in range(order)],
         "shapes": [block.shape for block in blocks],

@@ -44,6 +44,7 @@ def parse_vehicle(
     where: str,
     find_model: Callable[[str], type[Model]],
     changes: Mapping[str, Any] | None = None,
+    at_speed: Any = None,
 ) -> Model:
     """Return the vehicle that a file's text describes, with some parameters changed.
 
@@ -57,6 +58,8 @@ def parse_vehicle(
         Gives the model class of a name.
     changes
         Parameter values that replace or complete the file's.
+    at_speed
+        Value for whichever parameter is the model's speed.
 
     Raises
     ------
@@ -77,11 +80,20 @@ def parse_vehicle(
     if "model" not in content or not isinstance(parameters, dict):
         raise UcritError(f"{where}: a vehicle file needs model = \"...\" and a [parameters] table")
     try:
-        vehicle = find_model(content["model"])(**{**parameters, **(changes or {})})
+        model = find_model(content["model"])
+        vehicle = model(**{**parameters, **(changes or {}), **_speed(model, at_speed)})
     except UcritError as error:
         raise type(error)(f"{where}: {error}") from None
     texts = {key: content[key] for key in TEXTS if key in content}
     return vehicle.with_info(**{"name": Path(where).stem, **texts, "file": where})
+
+
+def _speed(model: type[Model], value: Any) -> dict[str, Any]:
+    if value is None:
+        return {}
+    if model.declaration.speed is None:
+        raise UcritError(f"{model.model_id()} has no speed, so none can be asked for, got {value}")
+    return {model.declaration.speed: value}
 
 
 def write_vehicle(vehicle: Model, model: str | None = None) -> str:

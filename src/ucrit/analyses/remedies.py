@@ -1,0 +1,189 @@
+"""Remedies: the smallest change of one parameter alone that makes a vehicle stable up to a given speed."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..core.compiled import deciding_coefficients
+from ..core.errors import UcritError
+from ..core.model import Model
+from ..numerics.hurwitz import stable
+from .critical import critical
+
+Array = npt.NDArray[Any]
+
+SPEEDS = 129
+"""Speeds at which a changed vehicle is tried; the result is then checked for all speeds."""
+
+MAGNITUDES = np.logspace(-3, 3, 121)
+"""Changes that are tried, relative to the present value."""
+
+BEYOND = 1e-9
+"""A remedy lies this far, relatively, inside the stable side, so that applying it works."""
+
+
+@dataclass(frozen=True)
+class Remedy:
+    """What to do to one parameter.
+
+    Attributes
+    ----------
+    parameter, unit, meaning
+        Which parameter.
+    present
+        Its value now [SI].
+    value
+        The value at which the vehicle becomes stable, ``None`` if changing this parameter alone never does.
+    relative
+        ``(value - present)/|present|``; infinite where the present value is zero.
+    """
+
+    parameter: str
+    unit: str
+    meaning: str
+    present: float
+    value: float | None
+    relative: float
+
+    def __str__(self) -> str:
+        if self.value is None:
+            return f"{self.parameter}: no value helps"
+        word = "at least" if self.value > self.present else "at most"
+        share = f" ({self.relative:+.3g} of it)" if math.isfinite(self.relative) else ""
+        return f"{self.parameter}: {word} {self.value:.6g} {self.unit} instead of {self.present:.6g}{share}"
+
+
+def remedies(vehicle: Model, upto: float | None = None, since: float = 0.0) -> tuple[Remedy, ...]:
+    """Find, for each parameter, the smallest change of it alone that makes the vehicle stable at all speeds up to one.
+
+    Parameters
+    ----------
+    vehicle
+        With scalar parameters.
+    upto
+        Speed [m/s] up to which it shall be stable; its own speed by default.
+    since
+        Speed [m/s] from which it shall be; for vehicles such as two-wheelers that cannot be at a standstill.
+
+    Returns
+    -------
+    tuple of Remedy
+        The smallest relative change first; parameters that cannot help last. Empty if the vehicle is stable already.
+        Without a speed, stability at the one operating point is meant.
+
+    Notes
+    -----
+    Each parameter is varied from a thousandth to a thousand times its value. The boundary is found to 1e-9 relative
+    on a grid of speeds, and moved on where the exact critical speeds of the changed vehicle say so.
+    """
+    if vehicle.dims:
+        raise UcritError("remedies are for one vehicle: give scalar parameters")
+    declared = type(vehicle).declaration
+    name = declared.speed
+    speeds = None if name is None else _speeds(vehicle, name, upto, since)
+    if _stable(vehicle, speeds):
+        return ()
+    found = [_remedy(vehicle, key, speeds) for key in declared.parameters if key != name]
+    return tuple(sorted(found, key=lambda r: (r.value is None, abs(r.relative))))
+
+
+def _speeds(vehicle: Model, name: str, upto: float | None, since: float) -> Array:
+    top = float(vehicle.values[name]) if upto is None else float(upto)
+    if not abs(since) < abs(top):
+        raise UcritError(f"the speeds from {since:g} to {top:g} m/s are an empty range")
+    return np.asarray(since + (top - since) * np.linspace(0, 1, SPEEDS + 1)[1:])
+
+
+def _grid_stable(vehicle: Model, key: str, values: Array, speeds: Array | None) -> Array:
+    """Return which values of a parameter make the vehicle stable at all given speeds; impossible values do not."""
+    allowed = type(vehicle).declaration.parameters[key].allows(values)
+    changes: dict[str, Any] = {key: np.where(allowed, values, vehicle.values[key])}
+    name = type(vehicle).declaration.speed
+    if speeds is not None and name is not None:
+        changes[name] = speeds
+    changed = vehicle.with_(**changes)
+    good = np.broadcast_to(stable(deciding_coefficients(changed)), [len(d) for d in changed.dims.values()])
+    axis = list(changed.dims).index(key)
+    return np.asarray(good.all(axis=tuple(i for i in range(good.ndim) if i != axis)) & allowed)
+
+
+def _stable(vehicle: Model, speeds: Array | None) -> bool:
+    """Tell whether a vehicle is stable at every speed of a range, by its exact critical speeds."""
+    name = type(vehicle).declaration.speed
+    if speeds is None or name is None:
+        return _stable_now(vehicle)
+    lo, hi = sorted((2 * speeds[0] - speeds[1], speeds[-1]))
+    tested = vehicle.with_(**{name: speeds[-1]})
+    changes = critical(tested, name, lo, hi)
+    return not len(changes) and changes.stable_at_lower and _stable_now(tested)
+
+
+def _stable_now(vehicle: Model) -> bool:
+    return bool(stable(deciding_coefficients(vehicle)))
+
+
+def _remedy(vehicle: Model, key: str, speeds: Array | None) -> Remedy:
+    parameter = type(vehicle).declaration.parameters[key]
+    present = float(vehicle.values[key])
+    blank = Remedy(key, parameter.unit, parameter.meaning, present, None, math.inf)
+    scale = abs(present) or _scale(vehicle, key, speeds)
+    if not scale:
+        return blank
+    options = []
+    for sense in (1.0, -1.0):
+        value = _nearest(vehicle, key, present, sense * scale, speeds)
+        if value is not None:
+            options.append(value)
+    if not options:
+        return blank
+    value = min(options, key=lambda v: abs(v - present))
+    relative = (value - present) / abs(present) if present else math.inf
+    return replace(blank, value=value, relative=relative)
+
+
+def _scale(vehicle: Model, key: str, speeds: Array | None) -> float:
+    """Size of a parameter that is zero now: that of its smallest critical value at the highest speed."""
+    name = type(vehicle).declaration.speed
+    at = vehicle if speeds is None or name is None else vehicle.with_(**{name: float(speeds[-1])})
+    return min((abs(c.value) for c in critical(at, key) if c.value), default=0.0)
+
+
+def _nearest(vehicle: Model, key: str, present: float, step: float, speeds: Array | None) -> float | None:
+    """Return the stable value nearest to the present one in one direction, or None."""
+    values = present + step * _offsets(vehicle, key, present, step)
+    good = _grid_stable(vehicle, key, values, speeds)
+    for first in np.flatnonzero(good & ~np.r_[False, good[:-1]]):
+        edge = _bisect(vehicle, key, values[first - 1] if first else present, values[first], speeds)
+        for margin in (BEYOND, 1e-6, 1e-4, 1e-2):
+            value = edge + margin * (edge - present)
+            if _allowed(vehicle, key, value) and _stable(vehicle.with_(**{key: value}), speeds):
+                return float(value)
+    return None
+
+
+def _offsets(vehicle: Model, key: str, present: float, step: float) -> Array:
+    """Relative changes to try; those of a positive parameter that shrinks end just above zero."""
+    lower = type(vehicle).declaration.parameters[key].lower
+    if step < 0 and math.isfinite(lower) and present > lower:
+        room = (present - lower) / -step
+        return np.asarray(room * (1 - np.logspace(0, -3, 122)[1:]))
+    return MAGNITUDES
+
+
+def _bisect(vehicle: Model, key: str, bad: float, good: float, speeds: Array | None) -> float:
+    """Return the boundary between an unstable and a stable value, on the stable side, by 32-fold section."""
+    for _ in range(9):
+        points = np.linspace(bad, good, 33)[1:]
+        fine = _grid_stable(vehicle, key, points, speeds)
+        first = int(np.argmax(fine))
+        bad, good = (points[first - 1] if first else bad), points[first]
+    return float(good)
+
+
+def _allowed(vehicle: Model, key: str, value: float) -> bool:
+    return bool(type(vehicle).declaration.parameters[key].allows(value))

@@ -1,0 +1,100 @@
+"""Findings in words: the verdict as one sentence."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from .analyze import Analysis
+    from .critical import Critical
+
+
+def speed_text(speed: float) -> str:
+    """Return a speed in m/s and, for readers on the road, in km/h.
+
+    >>> speed_text(23.41)
+    '23.41 m/s (84.3 km/h)'
+    """
+    return f"{speed:.4g} m/s ({speed * 3.6:.3g} km/h)"
+
+
+def describe(analysis: Analysis) -> str:
+    """Return the verdict of an analysis as one sentence."""
+    if analysis.speed is None or analysis.critical is None:
+        return _at_a_point(analysis)
+    top = abs(analysis.speed)
+    ranges = [sorted((abs(a), abs(b))) for a, b in analysis.critical.stable_ranges()]
+    inside = [(a, min(b, top)) for a, b in ranges if a < top]
+    word = "neutral" if analysis.verdict.state == "neutral" else "stable"
+    backing = " backing up" if analysis.speed < 0 else ""
+    every = f"{backing} at every speed" + (" to" if backing else " up to")
+    if analysis.stable:
+        return f"{word}{every} {speed_text(top)}" + _beyond(analysis, top) + _position(analysis)
+    if not inside:
+        return f"unstable{every} {speed_text(top)}: {_growth(analysis)}" + _from(ranges)
+    a, b = max(inside, key=lambda r: r[1] - r[0])
+    edges = {abs(c.value): c for c in analysis.critical}
+    text = f"{word}{backing} " + (f"up to {speed_text(b)}" if a == 0 else f"from {speed_text(a)} to {speed_text(b)}")
+    below, above = edges.get(a), edges.get(b)
+    parts = [f"below it {_grows(below)}" if below else "", f"above it {_grows(above)}" if above else ""]
+    told = [part for part in parts if part]
+    if len(inside) > 1:
+        told.append(f"there are {len(inside)} stable ranges")
+    return "; ".join([text, ", ".join(told)]) + _position(analysis)
+
+
+def _grows(c: Critical) -> str:
+    subject, _, _ = c.mode.rpartition(" ")
+    if c.kind == "flutter":
+        return f"the {subject} oscillation grows at {c.frequency_hz:.2g} Hz (flutter)"
+    if c.kind == "divergence":
+        return f"the {subject} motion runs away (divergence)"
+    return f"the {subject} motion grows without bound"
+
+
+def _growth(analysis: Analysis) -> str:
+    """Tell how the fastest growing mode goes."""
+    growing = [mode for mode in analysis.modes if mode.eigenvalue.real > 0]
+    if not growing:
+        return "some motion grows at a lower speed"
+    mode = growing[0]
+    subject, _, _ = mode.name.rpartition(" ")
+    if mode.oscillates:
+        how = f"the {subject} oscillation grows at {mode.frequency_hz:.2g} Hz"
+    else:
+        how = f"the {subject} motion runs away"
+    return f"{how}, doubling in {mode.time_to_double:.2g} s"
+
+
+def _beyond(analysis: Analysis, top: float) -> str:
+    above = [c for c in analysis.critical or () if abs(c.value) > top]
+    if above:
+        first = min(above, key=lambda c: abs(c.value))
+        return f"; above {speed_text(abs(first.value))} {_grows(first)}"
+    return ", and at every higher one" if analysis.verdict.state != "neutral" else ""
+
+
+def _from(ranges: list[list[float]]) -> str:
+    later = [a for a, _ in ranges if math.isfinite(a) and a > 0]
+    return f"; stable above {speed_text(min(later))}" if later else ""
+
+
+def _position(analysis: Analysis) -> str:
+    count = analysis.verdict.rigid_positions
+    if not count:
+        return ""
+    return f" ({'a zero root' if count == 1 else f'{count} zero roots'}, where it runs on the road, harmless)"
+
+
+def _at_a_point(analysis: Analysis) -> str:
+    state = analysis.verdict.state
+    if state == "unstable":
+        return f"unstable: {_growth(analysis)}"
+    if state == "neutral":
+        on_axis = [mode for mode in analysis.modes if mode.oscillates]
+        if on_axis:
+            mode = min(on_axis, key=lambda m: abs(m.eigenvalue.real))
+            return f"neutral: the {mode.name} at {mode.frequency_hz:.3g} Hz neither grows nor dies out"
+        return "neutral: nothing grows, but not everything dies out"
+    return "stable: every disturbance dies out" + _position(analysis)
