@@ -3,11 +3,45 @@
 from __future__ import annotations
 
 import importlib
-from typing import Any
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
+    from .analyses.analyze import analyze as analyze
+    from .analyses.convert import to_control as to_control
+    from .analyses.convert import to_scipy as to_scipy
+    from .analyses.criteria import criteria as criteria
+    from .analyses.critical import critical as critical
+    from .analyses.listing import listing as list
+    from .analyses.listing import template as new
+    from .analyses.locus import locus as locus
+    from .analyses.modes import modes as modes
+    from .analyses.remedies import remedies as remedies
+    from .analyses.sensitivity import sensitivity as sensitivity
+    from .analyses.show import show as show
+    from .analyses.stability_map import stability_map as stability_map
+    from .analyses.sweep import sweep as sweep
+    from .analyses.verdict import verdict as verdict
+    from .catalogue import find_model as find_model
+    from .catalogue import load as load
+    from .checks import check_model as check
+    from .checks import check_model as check_model
+    from .core import Model as Model
+    from .core import ModelError as ModelError
+    from .core import UcritError as UcritError
+    from .core import algebraic as algebraic
+    from .core import coordinate as coordinate
+    from .core import input as input
+    from .core import output as output
+    from .core import param as param
+    from .core import speed as speed
+    from .core import state as state
+    from .plots import plot as plot
+    from .report import write_report as write_report
 
 __version__ = "0.1.0"
 
-_PUBLIC = {
+_PUBLIC: dict[str, str | tuple[str, str]] = {
     "Model": "core",
     "ModelError": "core",
     "UcritError": "core",
@@ -23,20 +57,36 @@ _PUBLIC = {
     "analyze": "analyses.analyze",
     "criteria": "analyses.criteria",
     "critical": "analyses.critical",
+    "locus": "analyses.locus",
     "modes": "analyses.modes",
     "remedies": "analyses.remedies",
+    "sensitivity": "analyses.sensitivity",
+    "stability_map": "analyses.stability_map",
+    "sweep": "analyses.sweep",
+    "to_control": "analyses.convert",
+    "to_scipy": "analyses.convert",
     "verdict": "analyses.verdict",
+    "show": "analyses.show",
+    "list": ("analyses.listing", "listing"),
+    "new": ("analyses.listing", "template"),
+    "check": ("checks", "check_model"),
+    "check_model": "checks",
+    "plot": "plots",
+    "write_report": "report",
 }
+"""Public names, and the module that has each, with its name there where it is another."""
 
 
 def __getattr__(name: str) -> Any:
     """Import public names when they are first used: starting up stays as quick as importing NumPy."""
     if name not in _PUBLIC:
         raise AttributeError(f"module 'ucrit' has no attribute '{name}'")
-    value = getattr(importlib.import_module(f"ucrit.{_PUBLIC[name]}"), name)
+    place = _PUBLIC[name]
+    module, attribute = place if isinstance(place, tuple) else (place, name)
+    value = getattr(importlib.import_module(f"ucrit.{module}"), attribute)
     globals()[name] = value
     return value
 
 
-def __dir__() -> list[str]:
+def __dir__() -> Iterable[str]:
     return sorted({*globals(), *_PUBLIC})

@@ -10,21 +10,15 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
 from ..core.cache import cached
-from ..core.codegen import build, generate
+from ..core.codegen import build
 from ..core.compiled import direction as direction_of
 from ..core.errors import UcritError, near_match
 from ..core.model import Model
-from ..numerics.determinants import determinant, hurwitz_matrix
-
-if TYPE_CHECKING:
-    from sympy.polys.rings import PolyElement
-
-MAX_TERMS = 20_000
 
 
 @dataclass(frozen=True)
@@ -145,7 +139,7 @@ def criteria(model: type[Model] | Model, *, direction: int | None = None, free: 
         +1 forward, -1 backing up; that of the vehicle's speed by default.
     free
         Parameters to keep as symbols; the vehicle's values are put in for the others. Needed above order 6, where
-        fully symbolic conditions have too many terms.
+        fully symbolic conditions have too many terms to be read.
 
     Returns
     -------
@@ -155,7 +149,7 @@ def criteria(model: type[Model] | Model, *, direction: int | None = None, free: 
     Raises
     ------
     UcritError
-        If the conditions would have more than 20,000 terms, or ``free`` names no parameter.
+        If the conditions would be too long to be read, or ``free`` names no parameter.
     """
     cls = model if isinstance(model, type) else type(model)
     sense = direction or (1 if isinstance(model, type) else direction_of(model))
@@ -192,134 +186,11 @@ def _derive(cls: type[Model], direction: int, values: Mapping[str, Any]) -> dict
     import sympy as sp
 
     from ..core.derive import symbolic
+    from .conditions import conditions
 
     system = symbolic(cls, direction)
     if values:
         symbols = system.traced.parameters
         system = system.substituted({symbols[name]: sp.Rational(str(v)) for name, v in values.items()})
-    zeros = system.polynomial.zeros
-    a = list(system.polynomial.coefficients[zeros:])
-    even = len(a) > 1 and not any(a[1::2])
-    if even:  # all roots on the axis and simple if and only if p + p' is stable
-        a = [c + (k + 1) * a[k + 1] if k + 1 < len(a) else c for k, c in enumerate(a)]
-    parameters = [s for name, s in system.traced.parameters.items() if name not in values]
-    conditions, settled = [], True
-    for name, failure, poly in _lienard_chipart(a, cls.model_id()):
-        condition = _condition(name, failure, poly, parameters)
-        if condition is False:
-            conditions, settled = [], False
-            break
-        if condition is not True and condition["expression"] not in [c["expression"] for c in conditions]:
-            conditions.append(condition)
-    return {
-        "conditions": conditions,
-        "kind": "neutral" if even else "asymptotic",
-        "settled": None if conditions else settled,
-        "zeros": zeros,
-        "order": len(a) - 1,
-    }
-
-
-def _lienard_chipart(a: list[PolyElement], where: str) -> list[tuple[str, str, PolyElement]]:
-    """Return name, failure and polynomial of each condition; the sign of a_n is made positive first."""
-    from ..core.factor import definite_sign
-
-    n = len(a) - 1
-    if definite_sign(a[n]) == -1:
-        a = [-c for c in a]
-    found = [(f"a_{k}", "divergence" if k == 0 else "flutter", a[k]) for k in range(n)]
-    found.append((f"a_{n}", "order", a[n]))
-    for size in range(n - 1, 1, -2):
-        found.append((f"H_{size}", "flutter", hurwitz_determinant(a, size, where)))
-    return found
-
-
-def hurwitz_determinant(a: Sequence[PolyElement], size: int, where: str = "model") -> PolyElement:
-    """Return the leading principal minor of the given size of the Hurwitz matrix of ``sum a_k s^k``.
-
-    Raises `UcritError` when it would have far too many terms to be read.
-    """
-    n = len(a) - 1
-    terms = sum(len(c) for c in a) / (n + 1)
-    if terms**size > 40 * MAX_TERMS and size > 4:
-        raise UcritError(
-            f"{where}: the conditions of order {n} in all parameters have too many terms to be of use; "
-            "keep a few symbols and take numbers for the rest: criteria(vehicle, free=[\"U\", ...])"
-        )
-    return determinant([row[:size] for row in hurwitz_matrix(a)[:size]])
-
-
-def _condition(name: str, failure: str, poly: PolyElement, parameters: list[Any]) -> Any:
-    """Return ``True`` or ``False`` where the bounds settle ``poly > 0``, else the facts of the criterion."""
-    from ..core.factor import definite_sign, factors, readable
-
-    if not poly:
-        return False
-    content, found = factors(poly)
-    sign, left, dropped = (1 if content > 0 else -1), [], []
-    for factor, multiplicity in found:
-        settled = definite_sign(factor)
-        if settled is None:
-            left.append((factor, 2 - multiplicity % 2))
-        else:
-            dropped.append(typeset(readable(factor if settled > 0 else -factor))["expression"])
-            sign *= settled**multiplicity
-    if not left:
-        return sign > 0
-    if sign < 0:
-        odd = next((i for i, (_, m) in enumerate(left) if m == 1), None)
-        if odd is None:
-            return False
-        left[odd] = (-left[odd][0], 1)
-    return _facts(name, failure, left, dropped, parameters)
-
-
-def typeset(expression: Any) -> dict[str, str]:
-    """Return an expression as text, LaTeX and MathML."""
-    from ..core import typeset as to
-
-    return {"expression": to.text(expression), "latex": to.latex(expression), "mathml": to.mathml(expression)}
-
-
-def _facts(
-    name: str, failure: str, left: list[tuple[PolyElement, int]], dropped: list[str], parameters: list[Any]
-) -> dict[str, Any]:
-    import sympy as sp
-
-    from ..core.factor import readable
-
-    parts = [(readable(factor), power) for factor, power in left]
-    product = sp.Mul(*(sp.Pow(e, p, evaluate=False) if p > 1 else e for e, p in parts), evaluate=False)
-    used = [p for p in parameters if product.has(p)]
-    return {
-        "name": name,
-        **typeset(product),
-        "dropped": dropped,
-        "failure": failure,
-        "boundaries": [b for factor, _ in left for b in _boundaries(factor)],
-        "source": generate("criterion", [used], [product]),
-        "parameters": [p.name for p in used],
-    }
-
-
-def _boundaries(factor: PolyElement) -> list[dict[str, Any]]:
-    """Solve ``factor = 0`` for every parameter in which it is linear or purely quadratic."""
-    from ..core.factor import readable_ratio
-
-    found, ring = [], factor.ring
-    for i, generator in enumerate(ring.symbols):
-        powers = {m[i] for m in factor.itermonoms()}
-        if not generator.is_Symbol or any(g != generator and g.has(generator) for g in ring.symbols):
-            continue
-        if powers in ({0, 1}, {0, 2}):
-            power = max(powers)
-            split: dict[int, dict[Any, Any]] = {0: {}, power: {}}
-            for monom, c in factor.terms():
-                split[monom[i]][(*monom[:i], 0, *monom[i + 1 :])] = c
-            value = readable_ratio(-ring.from_dict(split[0]), ring.from_dict(split[power]))
-            found.append({
-                "parameter": generator.name,
-                "power": power,
-                **typeset(value),
-            })
-    return found
+    parameters = [symbol for name, symbol in system.traced.parameters.items() if name not in values]
+    return conditions(system.polynomial, parameters, cls.model_id())

@@ -24,6 +24,7 @@ from ..numerics.determinants import hurwitz_polynomial
 from ..numerics.exact import interpolate
 from ..numerics.real_roots import real_roots
 from ..numerics.routh import routh
+from .convert import Series, Table, Tabular
 from .criteria import Boundary, criteria
 from .modes import Mode, modes
 from .scan import scan
@@ -70,7 +71,7 @@ class Critical:
 
 
 @dataclass(frozen=True)
-class CriticalValues:
+class CriticalValues(Tabular):
     """All critical values of one parameter in a range, ascending.
 
     ``exact`` tells whether they were counted exactly, so that none can be missing, or searched for numerically.
@@ -100,6 +101,20 @@ class CriticalValues:
         for _ in self.values:
             stable.append(not stable[-1])
         return [(a, b) for a, b, good in zip(edges, edges[1:], stable, strict=False) if good]
+
+    def table(self) -> Table:
+        """Return one row for each critical value: value, kind, frequency, the stable side and the mode."""
+        numbers = np.arange(1, len(self.values) + 1)
+        unit = type(self.vehicle).declaration.parameters[self.parameter].unit
+        rows = ("number",)
+        data = (
+            Series(self.parameter, rows, np.array([c.value for c in self.values], dtype=float), unit),
+            Series("kind", rows, np.array([c.kind for c in self.values], dtype=str)),
+            Series("frequency", rows, np.array([c.frequency_hz for c in self.values], dtype=float), "Hz"),
+            Series("stable", rows, np.array([c.stable for c in self.values], dtype=str)),
+            Series("mode", rows, np.array([c.mode for c in self.values], dtype=str)),
+        )
+        return Table("critical values", self.vehicle, (Series("number", rows, numbers),), data, rows)
 
     def __str__(self) -> str:
         return "\n".join(map(str, self.values)) or f"no critical value of {self.parameter} in the range"
@@ -138,7 +153,7 @@ def critical(
     >>> [c.kind for c in critical(load("caravan"))]
     ['flutter']
     """
-    name = _parameter(vehicle, parameter)
+    name = parameter_name(vehicle, parameter)
     if vehicle.dims:
         raise UcritError("critical values are found for one vehicle at a time: give scalar parameters, or use sweep")
     lo, hi = _range(vehicle, name, lower, upper)
@@ -155,7 +170,8 @@ def critical(
     return CriticalValues(vehicle, name, lo, hi, values, stable[0], exact)
 
 
-def _parameter(vehicle: Model, parameter: str | None) -> str:
+def parameter_name(vehicle: Model, parameter: str | None) -> str:
+    """Return the name of a parameter, the speed by default; one that is not declared is refused."""
     declared = type(vehicle).declaration
     name = parameter or declared.speed
     if name is None:
@@ -244,14 +260,20 @@ def _is_stable(a: Sequence[Polynomial], at: Fraction) -> bool:
 def _describe(vehicle: Model, name: str, value: float, kinds: set[str], stable: str) -> Critical:
     mode = crossing_mode(vehicle.with_(**{name: value}))
     kind = next(iter(kinds)) if len(kinds) == 1 else "flutter" if mode.oscillates else "divergence"
-    closed = None
-    for condition in criteria(type(vehicle), direction=direction(vehicle)).conditions:
-        boundary = condition.boundary(name)
-        if boundary and condition.failure == kind and _matches(boundary, vehicle, value):
-            closed = boundary
+    closed = _closed_form(vehicle, name, value, kind)
     frequency = mode.frequency_hz if kind == "flutter" else 0.0
     unit = type(vehicle).declaration.parameters[name].unit
     return Critical(name, value, unit, kind, frequency, stable, mode.name.rpartition(" ")[0] + _going(kind), closed)
+
+
+def _closed_form(vehicle: Model, name: str, value: float, kind: str) -> Boundary | None:
+    """Return the closed form that gives this value; a model of high order has none."""
+    try:
+        conditions = criteria(type(vehicle), direction=direction(vehicle)).conditions
+    except UcritError:
+        return None
+    found = [c.boundary(name) for c in conditions if c.failure == kind]
+    return next((b for b in reversed(found) if b and _matches(b, vehicle, value)), None)
 
 
 def _going(kind: str) -> str:

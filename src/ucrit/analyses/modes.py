@@ -13,9 +13,9 @@ import numpy.typing as npt
 from ..core.compiled import labels, state_space
 from ..core.errors import UcritError
 from ..core.model import Model
+from .convert import Series, Table, Tabular, complex_series, unit_of
 
 Array = npt.NDArray[Any]
-
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class Mode:
 
 
 @dataclass(frozen=True)
-class Modes:
+class Modes(Tabular):
     """Eigenvalues and eigenvectors of a vehicle; leading dimensions are those of its array parameters.
 
     Attributes
@@ -107,6 +107,33 @@ class Modes:
             )
             for name, k in zip(names, kept, strict=True)
         ]
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of all n eigenvalues of a vehicle with scalar parameters; the second of a pair is the conjugate."""
+        names: list[str] = []
+        upper = iter(self.list())
+        for value in self.eigenvalues:
+            names.append(next(upper).name if value.imag >= 0 else f"{names[-1]}, conjugate")
+        return tuple(names)
+
+    def table(self) -> Table:
+        """Return eigenvalues, frequency, damping ratio and participation with their units."""
+        coords = [
+            Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.vehicle.dims.items()
+        ]
+        dims = tuple(self.vehicle.dims)
+        names = np.arange(1, self.eigenvalues.shape[-1] + 1) if dims else np.array(self.names)
+        coords += [Series("mode", ("mode",), names), Series("state", ("state",), np.array(self.labels))]
+        size = np.abs(self.eigenvalues)
+        damping = np.divide(-self.eigenvalues.real, size, out=np.full(size.shape, np.nan), where=size > 0)
+        data = (
+            *complex_series("eigenvalue", (*dims, "mode"), self.eigenvalues, "1/s"),
+            Series("frequency", (*dims, "mode"), self.eigenvalues.imag / (2 * math.pi), "Hz"),
+            Series("damping_ratio", (*dims, "mode"), damping, "1"),
+            Series("participation", (*dims, "state", "mode"), self.participation, "1"),
+        )
+        return Table("modes", self.vehicle, tuple(coords), data, (*dims, "mode"))
 
     def _shape(self, k: int) -> Array:
         """Scale a vector by its largest variable; rates follow."""
@@ -166,16 +193,31 @@ def modes(vehicle: Model) -> Modes:
     >>> [round(mode.eigenvalue.real, 5) for mode in modes(load("bmw-320i"))]
     [-21.50352, -21.58519]
     """
-    A = state_space(vehicle).A
-    if not np.all(np.isfinite(A)):
-        raise UcritError(f"{type(vehicle).model_id()}: the equations are singular for these parameters")
-    values, vectors = np.linalg.eig(A)
+    values, vectors = eigensystem(vehicle)
+    return Modes(vehicle, labels(vehicle), values, vectors, _participation(vectors))
+
+
+def eigensystem(vehicle: Model) -> tuple[Array, Array]:
+    """Return eigenvalues [1/s] (..., n) and right eigenvectors (..., n, n) in columns, ordered as in `Modes`."""
+    values, vectors = np.linalg.eig(_state_matrix(vehicle))
     values, vectors = values.astype(complex), vectors.astype(complex)
     order = _order(values)
     values = np.take_along_axis(values, order, axis=-1)
     vectors = np.take_along_axis(vectors, order[..., None, :], axis=-1)
-    values = _with_exact_zeros(vehicle, values)
-    return Modes(vehicle, labels(vehicle), values, vectors, _participation(vectors))
+    return _with_exact_zeros(vehicle, values), vectors
+
+
+def eigenvalues(vehicle: Model) -> Array:
+    """Return eigenvalues [1/s] alone, of shape (..., n), ordered as in `Modes`."""
+    values = np.linalg.eigvals(_state_matrix(vehicle)).astype(complex)
+    return _with_exact_zeros(vehicle, np.take_along_axis(values, _order(values), axis=-1))
+
+
+def _state_matrix(vehicle: Model) -> Array:
+    A = state_space(vehicle).A
+    if not np.all(np.isfinite(A)):
+        raise UcritError(f"{type(vehicle).model_id()}: the equations are singular for these parameters")
+    return A
 
 
 def _order(values: Array) -> Array:

@@ -43,15 +43,11 @@ class Compiled:
 
     @cached_property
     def _facts(self) -> Any:
-        from .derive import linear_facts
-
-        return cached(self.model, f"linear{self.direction:+d}", lambda: linear_facts(self.model, self.direction))
+        return cached(self.model, f"linear{self.direction:+d}", lambda: _derive("linear", self.model, self.direction))
 
     @cached_property
     def _slopes(self) -> Any:
-        from .derive import slope_facts
-
-        return cached(self.model, f"slopes{self.direction:+d}", lambda: slope_facts(self.model, self.direction))
+        return cached(self.model, f"slopes{self.direction:+d}", lambda: _derive("slope", self.model, self.direction))
 
     @property
     def order(self) -> int:
@@ -159,6 +155,12 @@ class Compiled:
         return slopes
 
 
+def _derive(piece: str, *arguments: Any) -> Any:
+    """Derive facts that are not cached yet; not imported before, because that imports SymPy."""
+    from . import derive
+    return getattr(derive, f"{piece}_facts")(*arguments)
+
+
 def _shape(arguments: Arguments) -> tuple[int, ...]:
     return np.broadcast_shapes(*(np.shape(a) for a in arguments))
 
@@ -182,9 +184,7 @@ class Motion:
 
     @cached_property
     def _facts(self) -> Any:
-        from .derive import motion_facts
-
-        return cached(self.model, "motion", lambda: motion_facts(self.model))
+        return cached(self.model, "motion", lambda: _derive("motion", self.model))
 
     @property
     def labels(self) -> tuple[str, ...]:
@@ -243,8 +243,10 @@ def motion(model: type[Model]) -> Motion:
     return Motion(model)
 
 
-def _by_direction(vehicle: Model, evaluate: Callable[[Compiled, Arguments], Sequence[Any]]) -> tuple[Any, ...]:
-    """Evaluate with the equations of the direction that each speed has."""
+def _by_direction(
+    vehicle: Model, evaluate: Callable[[Compiled, Arguments], Sequence[Any]], trailing: int = 0
+) -> tuple[Any, ...]:
+    """Evaluate with the equations of the direction that each speed has; results end in ``trailing`` further axes."""
     model, arguments = type(vehicle), vehicle.arguments()
     name = model.declaration.speed
     if name is None:
@@ -253,7 +255,6 @@ def _by_direction(vehicle: Model, evaluate: Callable[[Compiled, Arguments], Sequ
     if np.all(U > 0) or np.all(U < 0):
         return tuple(evaluate(compiled(model, 1 if U.flat[0] > 0 else -1), arguments))
     ahead, back = evaluate(compiled(model, 1), arguments), evaluate(compiled(model, -1), arguments)
-    trailing = 2 if isinstance(ahead, StateSpace) else 0
     forward = (U > 0).reshape(U.shape + (1,) * trailing)
     return tuple(np.where(forward, a, b) for a, b in zip(ahead, back, strict=True))
 
@@ -267,7 +268,16 @@ def state_space(vehicle: Model) -> StateSpace:
         A (..., n, n), B (..., n, m), C (..., p, n), D (..., p, m) in SI units; ``...`` is the shape of
         ``vehicle.dims``. States are named by ``compiled(type(vehicle)).labels``.
     """
-    return StateSpace(*_by_direction(vehicle, lambda c, arguments: c.state_space(arguments)))
+    return StateSpace(*_by_direction(vehicle, lambda c, arguments: c.state_space(arguments), trailing=2))
+
+
+def state_slopes(vehicle: Model) -> dict[str, Array]:
+    """Return dA/dp of a vehicle's state matrix for every parameter p, by name, each of shape (..., n, n).
+
+    ``...`` is the shape of ``vehicle.dims``; units are those of A divided by the parameter's.
+    """
+    slopes = _by_direction(vehicle, lambda c, arguments: [*c.state_slopes(arguments).values()], trailing=2)
+    return dict(zip(type(vehicle).declaration.parameters, slopes, strict=True))
 
 
 def coefficients(vehicle: Model) -> tuple[Any, ...]:

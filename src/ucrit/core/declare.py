@@ -81,7 +81,7 @@ class Parameter(Quantity):
             return number
         try:
             array = np.array(value, dtype=float)
-        except (TypeError, ValueError):
+        except (TypeError, ValueError, OverflowError):
             raise UcritError(f"{thing} must be a number or an array of numbers, got {value!r}") from None
         if array.ndim != 1 or not array.size:
             raise UcritError(f"{thing} must be a number or a one-dimensional array, got shape {array.shape}")

@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-import sympy as sp
-from sympy.polys.rings import PolyElement
+if TYPE_CHECKING:
+    from sympy.polys.rings import PolyElement
+
+
+LONG = 20
+"""Polynomials with more terms are left expanded: collecting them takes minutes and makes them no easier to read."""
 
 
 def factors(poly: PolyElement) -> tuple[int, list[tuple[PolyElement, int]]]:
@@ -39,7 +43,7 @@ def definite_sign(poly: PolyElement) -> int | None:
     """
     signs, strict = set(), False
     for monom, c in poly.terms():
-        powers = [_sign_of_power(g, e) for g, e in zip(poly.ring.symbols, monom, strict=True) if e]
+        powers = [sign_of_power(g, e) for g, e in zip(poly.ring.symbols, monom, strict=True) if e]
         if any(sign is None for sign, _ in powers):
             return None
         signs.add(math.prod((sign or 0 for sign, _ in powers), start=1 if c > 0 else -1))
@@ -47,7 +51,7 @@ def definite_sign(poly: PolyElement) -> int | None:
     return signs.pop() if len(signs) == 1 and strict else None
 
 
-def _sign_of_power(generator: Any, exponent: int) -> tuple[int | None, bool]:
+def sign_of_power(generator: Any, exponent: int) -> tuple[int | None, bool]:
     """Sign of a power (0 counts as +1) and whether it surely differs from zero."""
     if generator.is_positive:
         return 1, True
@@ -59,19 +63,45 @@ def _sign_of_power(generator: Any, exponent: int) -> tuple[int | None, bool]:
 
 
 def readable(poly: PolyElement) -> Any:
-    """Return a polynomial as the shortest expression found by collecting it in one of its parameters."""
-    expression = poly.as_expr()
-    best, cost = expression, sp.count_ops(expression)
-    candidates = [sp.collect(expression, g, sp.factor) for g in poly.ring.symbols if expression.has(g)]
-    for candidate in [sp.factor(expression), *candidates]:
-        ops = sp.count_ops(candidate)
-        if ops < cost:
-            best, cost = candidate, ops
-    return best
+    """Return a polynomial as the shortest expression found by collecting it in one of its parameters.
+
+    ``C*I_c + C*b**2*m - k*...`` becomes ``C*(I_c + b**2*m) - k*(...)``: the coefficient of every power is factored,
+    and the parameter is chosen that leaves the fewest symbols to write.
+    """
+    plain, best, cost = poly.as_expr(), None, _length(poly)
+    for i in range(poly.ring.ngens) if len(poly) > 2 else ():
+        parts = [(power, *factors(part)) for power, part in sorted(_by_power(poly, i).items())]
+        length = sum(power > 0 for power, _, _ in parts) + sum(m * _length(f) for _, _, fs in parts for f, m in fs)
+        if len(parts) > 1 and length < cost:
+            best, cost = (i, parts), length
+    if best is None:
+        return plain
+    import sympy as sp
+
+    generator = poly.ring.symbols[best[0]]
+    terms = []
+    for power, content, found in best[1]:
+        product = sp.Mul(*(readable(f) ** m for f, m in found))
+        terms.append(content * generator**power * product)
+    return sp.Add(*terms)
+
+
+def _length(poly: PolyElement) -> int:
+    return sum(sum(monom) for monom in poly.itermonoms()) + len(poly) - 1
+
+
+def _by_power(poly: PolyElement, index: int) -> dict[int, PolyElement]:
+    """Split a polynomial by the powers of one of its generators."""
+    split: dict[int, dict[Any, Any]] = {}
+    for monom, c in poly.terms():
+        split.setdefault(monom[index], {})[(*monom[:index], 0, *monom[index + 1 :])] = c
+    return {power: poly.ring.from_dict(part) for power, part in split.items()}
 
 
 def readable_ratio(numerator: PolyElement, denominator: PolyElement) -> Any:
     """Return a quotient with both parts factored, whole-number contents reduced, and signs where they read best."""
+    import sympy as sp
+
     if not numerator:
         return sp.S.Zero
     (cn, above), (cd, below) = factors(numerator), factors(denominator)

@@ -6,7 +6,7 @@ All arithmetic is done in fields and rings of polynomials in the parameters, nev
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
@@ -16,6 +16,7 @@ from sympy.polys.matrices import DomainMatrix
 from sympy.polys.rings import PolyElement, PolyRing
 
 from .errors import ModelError
+from .generators import function_symbols
 from .trace import Traced, trace
 
 Row = list[list[Any]]  # row[j][k]: coefficient of the k-th derivative of variable j
@@ -23,10 +24,14 @@ Row = list[list[Any]]  # row[j][k]: coefficient of the k-th derivative of variab
 
 @dataclass(frozen=True)
 class CharacteristicPolynomial:
-    """``a_0 + a_1 s + ... + a_n s^n`` over a ring of polynomials in the parameters, free of common factors."""
+    """``a_0 + a_1 s + ... + a_n s^n`` over a ring of polynomials in the parameters, free of common factors.
+
+    ``functions`` maps those of the ring's symbols that stand for a function of parameters to that function.
+    """
 
     ring: PolyRing
     coefficients: tuple[PolyElement, ...]
+    functions: Mapping[Any, Any] = field(default_factory=dict)
 
     @property
     def zeros(self) -> int:
@@ -36,11 +41,11 @@ class CharacteristicPolynomial:
     @property
     def expressions(self) -> tuple[Any, ...]:
         """The coefficients as SymPy expressions, ascending."""
-        return tuple(a.as_expr() for a in self.coefficients)
+        return tuple(a.as_expr().xreplace(dict(self.functions)) for a in self.coefficients)
 
     def degrees(self, symbol: Any) -> list[int] | None:
         """Degree of each coefficient in a parameter; ``None`` where it also occurs inside a function."""
-        if any(g != symbol and g.has(symbol) for g in self.ring.symbols):
+        if any(f.has(symbol) for f in self.functions.values()):
             return None
         if symbol not in self.ring.symbols:
             return [0] * len(self.coefficients)
@@ -71,7 +76,13 @@ class LinearSystem:
     @cached_property
     def polynomial(self) -> CharacteristicPolynomial:
         """Characteristic polynomial ``det sum_k P_k s^k``."""
-        return characteristic_polynomial(self.P, self.traced.model.model_id())
+        return characteristic_polynomial(self.P, self.traced.model.model_id(), self.bounds)
+
+    @property
+    def bounds(self) -> dict[Any, Any]:
+        """Declared parameters by their symbols."""
+        declared = self.traced.model.declaration.parameters
+        return {symbol: declared[name] for name, symbol in self.traced.parameters.items()}
 
     @cached_property
     def explicit(self) -> Explicit:
@@ -125,29 +136,58 @@ def linear_system(model: Any, direction: int = 1, method: str = "") -> LinearSys
     return linearize(trace(model, direction, method))
 
 
-def characteristic_polynomial(P: Sequence[sp.Matrix], where: str = "model") -> CharacteristicPolynomial:
+def characteristic_polynomial(
+    P: Sequence[sp.Matrix], where: str = "model", bounds: Mapping[Any, Any] | None = None
+) -> CharacteristicPolynomial:
     """Return ``det sum_k P_k s^k`` with denominators cleared row by row and common factors removed.
 
     The leading coefficient's sign is chosen so that its first term is positive.
     """
     n = P[0].rows
-    field, elements = construct_domain([e for M in P for e in M], field=True)
-    symbols = field.symbols if field.is_Composite else ()
+    domain, elements, functions = _domain([e for M in P for e in M], bounds or {})
+    symbols = domain.symbols if domain.is_Composite else ()
     ring = PolyRing((*symbols, sp.Dummy("s")), sp.ZZ, "lex")
     s = ring.gens[-1]
     rows = []
     for i in range(n):
         entries = [[elements[k * n * n + i * n + j] for k in range(len(P))] for j in range(n)]
-        rows.append(_cleared_row(entries, field, ring, s))
+        rows.append(_cleared_row(entries, domain, ring, s))
     determinant = DomainMatrix(rows, (n, n), ring.to_domain()).det()
     if not determinant:
         raise ModelError(f"{where}: the equations of motion are not independent (their determinant is zero)")
-    return _collect(determinant, symbols)
+    return _collect(determinant, symbols, functions)
 
 
-def _cleared_row(entries: Row, field: Any, ring: PolyRing, s: PolyElement) -> list[PolyElement]:
+def _domain(expressions: Sequence[Any], bounds: Mapping[Any, Any]) -> tuple[Any, list[Any], dict[Any, Any]]:
+    """Return a field of rational functions in the parameters, the expressions in it, and what its symbols stand for."""
+    simple = [sp.trigsimp(e) if e.has(sp.sin, sp.cos, sp.tan) else e for e in map(sp.sympify, expressions)]
+    swap, back = function_symbols(simple, bounds)
+    domain, elements = construct_domain([e.xreplace(swap) for e in simple], field=True)
+    return domain, elements, back
+
+
+def _exact_field(entries: Sequence[Any]) -> tuple[Any, list[Any]]:
+    """Return a field of rational functions and the entries in it.
+
+    Functions of one parameter, such as its sine and cosine, count as independent of each other.
+    """
+    field, elements = construct_domain(entries, field=True)
+    if not field.is_EX:
+        return field, elements
+    generators = sorted({g for e in entries for g in _generators(e)}, key=sp.default_sort_key)
+    field = sp.QQ.frac_field(*generators)
+    return field, [field.from_sympy(e) for e in entries]
+
+
+def _generators(expression: Any) -> set[Any]:
+    if expression.is_Symbol or expression.is_Function:
+        return {expression}
+    return {g for argument in expression.args for g in _generators(argument)}
+
+
+def _cleared_row(entries: Row, domain: Any, ring: PolyRing, s: PolyElement) -> list[PolyElement]:
     """Multiply a row by its common denominator and write it in the ring of parameters and ``s``."""
-    pairs = [[_fraction(e, field, ring) for e in chain] for chain in entries]
+    pairs = [[_fraction(e, domain, ring) for e in chain] for chain in entries]
     common = ring.one
     for chain in pairs:
         for numerator, denominator in chain:
@@ -159,8 +199,8 @@ def _cleared_row(entries: Row, field: Any, ring: PolyRing, s: PolyElement) -> li
     ]
 
 
-def _fraction(element: Any, field: Any, ring: PolyRing) -> tuple[PolyElement, PolyElement]:
-    if not field.is_Composite:
+def _fraction(element: Any, domain: Any, ring: PolyRing) -> tuple[PolyElement, PolyElement]:
+    if not domain.is_Composite:
         return ring(int(element.numerator)), ring(int(element.denominator))
     num, content_n = element.numer.clear_denoms()[::-1]
     den, content_d = element.denom.clear_denoms()[::-1]
@@ -171,7 +211,7 @@ def _lift(poly: PolyElement, ring: PolyRing) -> PolyElement:
     return ring.from_dict({(*monom, 0): int(c) for monom, c in poly.terms()})
 
 
-def _collect(determinant: PolyElement, symbols: Sequence[Any]) -> CharacteristicPolynomial:
+def _collect(determinant: PolyElement, symbols: Sequence[Any], functions: Mapping[Any, Any]) -> CharacteristicPolynomial:
     """Split a polynomial in parameters and ``s`` by powers of ``s``, and divide by what all parts share."""
     ring = PolyRing(tuple(symbols), sp.ZZ, "lex")
     parts: dict[int, dict[tuple[int, ...], Any]] = {}
@@ -183,7 +223,7 @@ def _collect(determinant: PolyElement, symbols: Sequence[Any]) -> Characteristic
         common = common.gcd(a)
     if coefficients[-1].LC * common.LC < 0:
         common = -common
-    return CharacteristicPolynomial(ring, tuple(a.exquo(common) for a in coefficients))
+    return CharacteristicPolynomial(ring, tuple(a.exquo(common) for a in coefficients), functions)
 
 
 @dataclass(frozen=True)
@@ -213,7 +253,7 @@ def explicit(system: LinearSystem) -> Explicit:
     """
     n, m = system.P[0].rows, system.Q.cols
     entries = [e for M in (*system.P, system.Q) for e in M]
-    field, elements = construct_domain(entries, field=True)
+    domain, elements, functions = _domain(entries, system.bounds)
     size = n * n
 
     def row(i: int) -> Row:
@@ -222,7 +262,7 @@ def explicit(system: LinearSystem) -> Explicit:
         return [*chains, *([-elements[start + j]] for j in range(m))]
 
     rows = [row(i) for i in range(n)]
-    orders = _reduce(rows, n, field, system.traced.model.model_id())
+    orders = _reduce(rows, n, domain, system.traced.model.model_id())
     for i in range(n):
         for j in range(n, n + m):
             if _degree(rows[i][j]) > 0:
@@ -230,24 +270,24 @@ def explicit(system: LinearSystem) -> Explicit:
                     f"{system.traced.model.model_id()}: input {system.traced.u[j - n]} acts through its rate of change "
                     "on a constrained motion; declare its rate as the input"
                 )
-    return _assemble(system, rows, orders, field)
+    return _assemble(system, rows, orders, domain, functions)
 
 
 def _degree(chain: list[Any]) -> int:
     return max((k for k, c in enumerate(chain) if c), default=-1)
 
 
-def _reduce(rows: list[Row], n: int, field: Any, where: str) -> list[int]:
+def _reduce(rows: list[Row], n: int, domain: Any, where: str) -> list[int]:
     orders = [max(_degree(r[j]) for r in rows) for j in range(n)]
     while True:
-        leading = DomainMatrix([[_at(r[j], orders[j]) for j in range(n)] for r in rows], (n, n), field)
+        leading = DomainMatrix([[_at(r[j], orders[j]) for j in range(n)] for r in rows], (n, n), domain)
         null = leading.transpose().nullspace().to_list() if n else []
         if not null:
             return orders
         if sum(orders) < 0:
             raise ModelError(f"{where}: the equations of motion are not independent")
         weights = null[0]
-        combined = [_combine([r[j] for r in rows], weights, field) for j in range(len(rows[0]))]
+        combined = [_combine([r[j] for r in rows], weights, domain) for j in range(len(rows[0]))]
         deficits = [(orders[j] - _degree(combined[j]), j) for j in range(n) if _degree(combined[j]) >= 0]
         if not deficits:
             raise ModelError(f"{where}: the equations of motion are not independent")
@@ -256,7 +296,7 @@ def _reduce(rows: list[Row], n: int, field: Any, where: str) -> list[int]:
         rows[replaced] = combined
         for i in range(n):
             if i != replaced:
-                _eliminate(rows[i], combined, pivot, field)
+                _eliminate(rows[i], combined, pivot, domain)
         orders = [max(_degree(r[j]) for r in rows) for j in range(n)]
 
 
@@ -264,31 +304,31 @@ def _at(chain: list[Any], k: int) -> Any:
     return chain[k] if 0 <= k < len(chain) else chain[0] * 0
 
 
-def _combine(chains: list[list[Any]], weights: list[Any], field: Any) -> list[Any]:
+def _combine(chains: list[list[Any]], weights: list[Any], domain: Any) -> list[Any]:
     top = max(len(chain) for chain in chains)
     return [
-        sum((w * chain[k] for w, chain in zip(weights, chains, strict=True) if k < len(chain)), field.zero)
+        sum((w * chain[k] for w, chain in zip(weights, chains, strict=True) if k < len(chain)), domain.zero)
         for k in range(top)
     ]
 
 
-def _eliminate(row: Row, by: Row, pivot: int, field: Any) -> None:
+def _eliminate(row: Row, by: Row, pivot: int, domain: Any) -> None:
     """Subtract derivatives of the equation ``by`` from ``row`` until variable ``pivot`` is of lower degree."""
     degree = _degree(by[pivot])
     while (shift := _degree(row[pivot]) - degree) >= 0:
         factor = row[pivot][degree + shift] / by[pivot][degree]
         for j, chain in enumerate(by):
-            target = row[j] + [field.zero] * (len(chain) + shift - len(row[j]))
+            target = row[j] + [domain.zero] * (len(chain) + shift - len(row[j]))
             for k, c in enumerate(chain):
                 target[k + shift] = target[k + shift] - factor * c
             row[j] = target
 
 
-def _assemble(system: LinearSystem, rows: list[Row], orders: list[int], field: Any) -> Explicit:
+def _assemble(system: LinearSystem, rows: list[Row], orders: list[int], domain: Any, functions: Any) -> Explicit:
     n, m = system.P[0].rows, system.Q.cols
 
     def matrix(values: list[list[Any]], cols: int) -> sp.Matrix:
-        return sp.Matrix(len(values), cols, [field.to_sympy(v) for row in values for v in row])
+        return sp.Matrix(len(values), cols, [domain.to_sympy(v).xreplace(functions) for row in values for v in row])
 
     below = [(j, k) for j in range(n) for k in range(orders[j])]
     L = matrix([[_at(r[j], orders[j]) for j in range(n)] for r in rows], n)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 import re
+from fractions import Fraction
 from functools import cache
 from typing import Any, NamedTuple
 
@@ -61,6 +62,23 @@ def dimension(unit: str) -> Dimension:
     return total
 
 
+COMMON = {
+    "km/h": ("m/s", "5/18"),
+    "mph": ("m/s", "0.44704"),
+    "t": ("kg", "1000"),
+    "g": ("kg", "1/1000"),
+    "cm": ("m", "1/100"),
+    "mm": ("m", "1/1000"),
+    "kN": ("N", "1000"),
+    "kN/m": ("N/m", "1000"),
+    "N/mm": ("N/m", "1000"),
+    "kN/rad": ("N/rad", "1000"),
+}
+"""Units met in most vehicle files: the coherent unit and the factor. Starting pint takes longer than most analyses."""
+
+_TOWER = re.compile(r"\d\s*(\^|\*\*)|(\^|\*\*)[\s(+-]*\d{3}")
+"""Powers of numbers and powers above 99: no unit has them, and computing ``9**9**9`` would take for ever."""
+
 _TEXT = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$", re.DOTALL)
 
 
@@ -74,29 +92,41 @@ def to_si(value: Any, unit: str, thing: str) -> float:
     """
     if isinstance(value, bool) or not isinstance(value, int | float | str):
         raise UcritError(f"{thing} must be a number or a text with a unit, got {value!r}")
-    if not isinstance(value, str):
-        return float(value)
+    if isinstance(value, int | float):
+        return _finite(value, thing)
     match = _TEXT.match(value)
     if match is None:
         raise UcritError(f"{thing} must be a number, if need be with a unit such as '{unit}', got {value!r}")
     number, text = float(match[1]), match[2]
     if text in ("", unit):
         return number
+    if COMMON.get(text, ("", ""))[0] == unit and 1e-99 < abs(number) < 1e99:
+        return float(Fraction(match[1]) * Fraction(COMMON[text][1]))
     return _convert(number, text, unit, thing)
+
+
+def _finite(value: float, thing: str) -> float:
+    try:
+        return float(value)
+    except OverflowError:
+        raise UcritError(f"{thing} must be finite, got a number above 1.8e308") from None
 
 
 def _convert(number: float, text: str, unit: str, thing: str) -> float:
     import pint
 
+    wrong = UcritError(f"{thing} is measured in {unit}, and {text!r} is not a unit that can be read")
+    if _TOWER.search(text):
+        raise wrong
     try:
         factor = _registry().Quantity(number, text).to(unit.replace(" ", "*"))
     except pint.DimensionalityError:
-        raise UcritError(f"{thing} is measured in {unit}, got '{number:g} {text}'") from None
+        raise UcritError(f"{thing} is measured in {unit}, got {f'{number:g} {text}'!r}") from None
     except Exception:  # pint raises many kinds, token errors among them, for texts that are no unit
-        raise UcritError(f"{thing} is measured in {unit}, and '{text}' is not a unit that can be read") from None
+        raise wrong from None
     result = float(factor.magnitude)
     if not math.isfinite(result):
-        raise UcritError(f"{thing} must be finite, got '{number:g} {text}'")
+        raise UcritError(f"{thing} must be finite, got {f'{number:g} {text}'!r}")
     return result
 
 

@@ -10,7 +10,7 @@ class TrailerKinematic(Model):
     """Trailer whose hitch follows a straight line and whose wheels do not slip (Karnopp 2004, section 5.II)."""
 
     a: float = param("m", "hitch to centre of mass", above=0)
-    b: float = param("m", "centre of mass to axle, positive when the axle is behind it", above=0)
+    b: float = param("m", "centre of mass to axle, positive when the axle is behind it", at_least=0)
     U: float = speed("speed of the towing vehicle", reverse=True)
 
     theta = state("rad", "yaw angle of the trailer", motion="yaw")

@@ -13,7 +13,7 @@ class TrailerRigidHitch(Model):
     m: float = param("kg", "mass", above=0)
     I_c: float = param("kg m^2", "yaw moment of inertia about the centre of mass", above=0)
     a: float = param("m", "hitch to centre of mass", above=0)
-    b: float = param("m", "centre of mass to axle, positive when the axle is behind it", above=0)
+    b: float = param("m", "centre of mass to axle, positive when the axle is behind it", at_least=0)
     C: float = param("N/rad", "cornering coefficient of the axle", above=0)
     U: float = speed("speed of the towing vehicle", reverse=True)
 

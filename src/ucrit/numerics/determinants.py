@@ -50,7 +50,7 @@ def determinant(matrix: Sequence[Sequence[Any]], divide: Division | None = None)
 
 
 def hurwitz_matrix(a: Sequence[Any]) -> list[list[Any]]:
-    """The Hurwitz matrix of ``a[0] + a[1] s + ... + a[n] s^n``, n rows of n; its first element is ``a[n - 1]``.
+    """The n x n Hurwitz matrix of ``a[0] + a[1] s + ... + a[n] s^n``; its first element is ``a[n - 1]``.
 
     Examples
     --------
@@ -103,7 +103,7 @@ def hurwitz_determinants(a: Sequence[Any], divide: Division | None = None) -> li
 
 
 def hurwitz_polynomial(coefficients: Sequence[Sequence[Any]]) -> list[Fraction]:
-    """The Hurwitz determinant H_(n-1) of a polynomial in s whose coefficients are polynomials in a parameter p.
+    """The Hurwitz determinant H_(n-1) of a polynomial in s, its coefficients polynomials in a parameter p.
 
     With all coefficients positive, H_(n-1) vanishes first where a pair of roots reaches the imaginary axis;
     it is the product of the sums of every two roots, up to sign and powers of ``a_n`` (Orlando 1911).

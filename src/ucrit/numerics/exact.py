@@ -40,16 +40,14 @@ def rational(x: Any) -> Fraction:
 
 
 def primitive(p: Sequence[Any]) -> list[int]:
-    """The integer polynomial without common factor that is a positive multiple of `p`; leading zeros are dropped.
+    """The integer polynomial without common factor that is a positive multiple of `p`, leading zeros dropped.
 
     Examples
     --------
     >>> primitive([0.5, -1.5, 0])
     [1, -3]
     """
-    terms = [x if type(x) is int else rational(x) for x in p]
-    while terms and not terms[-1]:
-        terms.pop()
+    terms = _trimmed([x if type(x) is int else rational(x) for x in p])
     scale = lcm(*(x.denominator for x in terms))
     integers = [x.numerator * (scale // x.denominator) for x in terms]
     content = integer_gcd(*integers) or 1
@@ -75,7 +73,7 @@ def multiply(p: Sequence[Any], q: Sequence[Any]) -> list[Any]:
     >>> multiply([1, 1], [-1, 1])
     [-1, 0, 1]
     """
-    product: list[Any] = [0] * max(len(p) + len(q) - 1, 0)
+    product: list[Any] = [0] * (len(p) + len(q) - 1 if p and q else 0)
     for i, x in enumerate(p):
         for j, y in enumerate(q):
             product[i + j] += x * y
@@ -97,9 +95,7 @@ def divmod_(p: Sequence[Any], q: Sequence[Any]) -> tuple[list[Fraction], list[Fr
     (['1/4', '1/2'], ['5/4'])
     """
     rest = [rational(x) for x in p]
-    divisor = [rational(x) for x in q]
-    while divisor and not divisor[-1]:
-        divisor.pop()
+    divisor = _trimmed([rational(x) for x in q])
     if not divisor:
         raise ValueError("division by the polynomial 0: the divisor must have a non-zero coefficient")
     degree = len(divisor) - 1
@@ -108,14 +104,11 @@ def divmod_(p: Sequence[Any], q: Sequence[Any]) -> tuple[list[Fraction], list[Fr
         quotient[k] = factor = rest.pop() / divisor[-1]
         for j in range(degree):
             rest[k + j] -= factor * divisor[j]
-    for terms in (quotient, rest):
-        while terms and not terms[-1]:
-            terms.pop()
-    return quotient, rest
+    return _trimmed(quotient), _trimmed(rest)
 
 
 def gcd(p: Sequence[Any], q: Sequence[Any]) -> list[int]:
-    """The greatest common divisor of `p` and `q` as a primitive integer polynomial with positive leading coefficient.
+    """The greatest common divisor: a primitive integer polynomial with positive leading coefficient.
 
     Primitive remainder sequence (Knuth, The Art of Computer Programming 2, sec. 4.6.1, algorithm E), after a
     test modulo a prime that recognises coprime polynomials. ``gcd([], []) == []``.
@@ -134,7 +127,7 @@ def gcd(p: Sequence[Any], q: Sequence[Any]) -> list[int]:
 
 
 def square_free(p: Sequence[Any]) -> list[tuple[list[int], int]]:
-    """The factors of `p` with only simple roots, each with its multiplicity, ascending; constant factors are dropped.
+    """The non-constant factors of `p` with simple roots, each with its multiplicity, which ascends.
 
     Yun's algorithm (von zur Gathen and Gerhard, Modern Computer Algebra, sec. 14.6).
 
@@ -165,27 +158,8 @@ def square_free(p: Sequence[Any]) -> list[tuple[list[int], int]]:
     return factors
 
 
-def square_free_part(p: Sequence[Any]) -> list[int]:
-    """The primitive integer polynomial with the same roots as `p`, each of them simple.
-
-    Raises
-    ------
-    ValueError
-        If `p` is the zero polynomial.
-
-    Examples
-    --------
-    >>> square_free_part([1, 2, 1])
-    [1, 1]
-    """
-    f = primitive(p)
-    if not f:
-        raise ValueError("the polynomial is 0: it needs at least one non-zero coefficient")
-    return _exact_quotient(f, gcd(f, derivative(f)))
-
-
 def interpolate(nodes: Sequence[Any], values: Sequence[Any]) -> list[Fraction]:
-    """The polynomial of lowest degree through the points (`nodes[k]`, `values[k]`), by Newton's divided differences.
+    """The polynomial of lowest degree through all (`nodes[k]`, `values[k]`), by Newton's divided differences.
 
     Raises
     ------
@@ -200,9 +174,7 @@ def interpolate(nodes: Sequence[Any], values: Sequence[Any]) -> list[Fraction]:
     x = [rational(node) for node in nodes]
     table = [rational(value) for value in values]
     if len(table) != len(x):
-        raise ValueError(
-            f"{len(x)} nodes but {len(table)} values: interpolation needs one value for each node"
-        )
+        raise ValueError(f"{len(x)} nodes but {len(table)} values: each node needs one value")
     if len(set(x)) < len(x):
         raise ValueError(f"the {len(x)} nodes are not distinct: every node may occur once")
     for order in range(1, len(x)):
@@ -210,13 +182,17 @@ def interpolate(nodes: Sequence[Any], values: Sequence[Any]) -> list[Fraction]:
             table[k] = (table[k] - table[k - 1]) / (x[k] - x[k - order])
     p: list[Fraction] = []
     for node, value in zip(reversed(x), reversed(table), strict=True):
-        p = [
-            shifted - node * kept for shifted, kept in zip([Fraction(0), *p], [*p, Fraction(0)], strict=True)
-        ]
+        p = [up - node * same for up, same in zip([Fraction(0), *p], [*p, Fraction(0)], strict=True)]
         p[0] += value
-    while p and not p[-1]:
-        p.pop()
-    return p
+    return _trimmed(p)
+
+
+def _trimmed(p: Sequence[Any]) -> list[Any]:
+    """`p` without zeros at the end."""
+    terms = list(p)
+    while terms and not terms[-1]:
+        terms.pop()
+    return terms
 
 
 def _pseudo_remainder(f: list[int], g: list[int]) -> list[int]:
@@ -234,10 +210,8 @@ def _pseudo_remainder(f: list[int], g: list[int]) -> list[int]:
 
 
 def _exact_quotient(f: list[int], g: list[int]) -> list[int]:
-    """`f` / `g` for a primitive divisor `g` of `f`; by Gauss's lemma the quotient is an integer polynomial."""
-    rest, degree = list(f), len(g) - 1
-    while rest and not rest[-1]:
-        rest.pop()
+    """`f` / `g` for a primitive divisor `g` of `f`; by Gauss's lemma the quotient is integral."""
+    rest, degree = _trimmed(f), len(g) - 1
     quotient = [0] * max(len(rest) - degree, 0)
     for k in reversed(range(len(quotient))):
         quotient[k] = factor = rest.pop() // g[-1]

@@ -12,7 +12,7 @@ from itertools import accumulate, pairwise
 from math import inf
 from typing import Any
 
-from ucrit.numerics.exact import derivative, primitive, rational, square_free, square_free_part
+from ucrit.numerics.exact import derivative, divmod_, gcd, primitive, rational, square_free
 
 Interval = tuple[Fraction, Fraction]
 
@@ -20,7 +20,7 @@ _INFINITY_BITS = 0x7FF0_0000_0000_0000
 
 
 def real_roots(p: Sequence[Any], lo: Any = -inf, hi: Any = inf) -> list[tuple[float, int]]:
-    """All distinct real roots of `p` in the closed interval [`lo`, `hi`], ascending, with their multiplicities.
+    """All distinct real roots of `p` in the closed interval [`lo`, `hi`], ascending, with multiplicities.
 
     Parameters
     ----------
@@ -52,7 +52,7 @@ def real_roots(p: Sequence[Any], lo: Any = -inf, hi: Any = inf) -> list[tuple[fl
 
 
 def isolate(p: Sequence[Any], lo: Any = -inf, hi: Any = inf) -> list[Interval]:
-    """Rational intervals, ascending, one for each distinct real root of `p` in the closed interval [`lo`, `hi`].
+    """Rational intervals, ascending, one for each distinct real root of `p` in the closed [`lo`, `hi`].
 
     An interval (x, x) is the root x itself; otherwise exactly one root lies strictly between the two ends.
     Intervals may touch, and an end of one may be a root that has its own interval (x, x); they never overlap.
@@ -71,7 +71,10 @@ def isolate(p: Sequence[Any], lo: Any = -inf, hi: Any = inf) -> list[Interval]:
     """
     if not lo <= hi:
         raise ValueError(f"interval from {lo} to {hi}: the lower end must not be above the upper end")
-    f = square_free_part(p)
+    f = primitive(p)
+    if not f:
+        raise ValueError("the polynomial is 0: it needs at least one non-zero coefficient")
+    f = primitive(divmod_(f, gcd(f, derivative(f)))[0])  # the same roots, each of them simple
     bound = _root_bound(f)
     left, right = (bound if x > bound else -bound if x < -bound else rational(x) for x in (lo, hi))
     # A cut at 0 separates the roots by sign, so that `refine` can work on magnitudes.

@@ -42,7 +42,7 @@ class RouthArray:
 
     @property
     def sign_changes(self) -> int | None:
-        """Sign changes in the first column, as many as there are roots in the right half plane; None for symbols."""
+        """Sign changes in the first column: one for each root in the right half plane; None for symbols."""
         return self.right_half_plane
 
     def __str__(self) -> str:
@@ -67,9 +67,8 @@ class RouthArray:
     def _verdict(self) -> list[str]:
         if self.right_half_plane is None:
             return []
-        return [
-            f"roots in the right half plane: {self.right_half_plane}, on the imaginary axis: {self.imaginary_axis}"
-        ]
+        right, axis = self.right_half_plane, self.imaginary_axis
+        return [f"roots in the right half plane: {right}, on the imaginary axis: {axis}"]
 
 
 def routh(coefficients: Sequence[Any]) -> RouthArray:
@@ -120,22 +119,11 @@ def routh(coefficients: Sequence[Any]) -> RouthArray:
     auxiliary: int | None = None  # index of the row that is the first auxiliary polynomial
     for power in reversed(range(degree)):
         row = _next_row(rows[-2], rows[-1]) if len(rows) > 1 else tuple(a[-2::-2])
-        zeros = next((j for j, x in enumerate(row) if not _is_zero(x)), len(row))
-        if zeros == len(row):
-            auxiliary = len(rows) - 1 if auxiliary is None else auxiliary
-            notes.append(
-                f"row s^{power} vanished; replaced by the derivative of the auxiliary polynomial "
-                + _polynomial_text(rows[-1], power + 1)
-            )
-            row = tuple((power + 1 - 2 * j) * x for j, x in enumerate(rows[-1][: power // 2 + 1]))
-        elif zeros:
-            notes.append(
-                f"row s^{power} began with {', '.join('0' * zeros)}; multiplied by 1 {'-' if zeros % 2 else '+'} "
-                f"s^{2 * zeros}, which is positive on the imaginary axis"
-            )
-            shifted = (*row[zeros:], *[Fraction(0)] * zeros)
-            row = tuple(x + (-1) ** zeros * y for x, y in zip(row, shifted, strict=True))
+        if all(map(_is_zero, row)) and auxiliary is None:
+            auxiliary = len(rows) - 1
+        row, note = _regular(row, rows[-1], power)
         rows.append(row)
+        notes += note
     right, axis = _count([row[0] for row in rows], auxiliary)
     return RouthArray(tuple(rows), tuple(range(degree, -1, -1)), tuple(notes), right, axis)
 
@@ -144,6 +132,23 @@ def _next_row(upper: Row, lower: Row) -> Row:
     """The row after `lower`; it has as many elements as `upper` less one."""
     padded = (*lower, Fraction(0))
     return tuple(_cancel(upper[j] - upper[0] * padded[j] / lower[0]) for j in range(1, len(upper)))
+
+
+def _regular(row: Row, above: Row, power: int) -> tuple[Row, list[str]]:
+    """The row of s^power with a first element that is not zero, and what was done to it."""
+    zeros = next((j for j, x in enumerate(row) if not _is_zero(x)), len(row))
+    if zeros == 0:
+        return row, []
+    if zeros == len(row):
+        slope = tuple((power + 1 - 2 * j) * x for j, x in enumerate(above[: power // 2 + 1]))
+        polynomial = _polynomial_text(above, power + 1)
+        action = f"vanished; replaced by the derivative of the auxiliary polynomial {polynomial}"
+        return slope, [f"row s^{power} {action}"]
+    shifted = (*row[zeros:], *[Fraction(0)] * zeros)
+    factor = f"1 {'-' if zeros % 2 else '+'} s^{2 * zeros}"
+    action = f"multiplied by {factor}, which is positive on the imaginary axis"
+    row = tuple(x + (-1) ** zeros * y for x, y in zip(row, shifted, strict=True))
+    return row, [f"row s^{power} began with {', '.join('0' * zeros)}; {action}"]
 
 
 def _count(column: list[Any], auxiliary: int | None) -> tuple[int | None, int | None]:

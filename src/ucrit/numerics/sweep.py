@@ -5,6 +5,7 @@ its distance beyond what the slopes of the branches predict, plus what its eigen
 assurance criterion: Allemang, Sound and Vibration 37, 2003, pp. 14-23). All steps are solved at once.
 """
 
+from copy import copy
 from dataclasses import dataclass
 from typing import Any
 
@@ -19,7 +20,7 @@ Index = NDArray[np.intp]
 Vectors = NDArray[Any]
 
 _BLOCK = 4096  # steps handled together, so that the n x n costs stay in the cache
-_ROUNDS = 5  # slopes and assignment improve each other; they settle in two or three rounds
+_ROUNDS = 8  # slopes and assignment improve each other; they settle in two or three rounds
 _TINY = 1e-12  # distances below this fraction of the largest eigenvalue of a step are noise
 _SAME = 1e-7  # eigenvalues closer than this fraction cannot be told apart: a double root is known no better
 _DOUBTFUL = 0.25  # cost of an assignment over the cost with two branches exchanged
@@ -42,8 +43,8 @@ class Sweep:
             raise ValueError(
                 f"parameter of shape {self.parameter.shape}: it must rise or fall over all {count} points"
             )
-        # Scales of the whole sweep: the size of the eigenvalues and, so that units cancel, of every component.
-        self._size = float(np.abs(self.values).max()) or 1.0
+        # Scales of the whole sweep: of the eigenvalues and, so that units cancel, of every component.
+        self._size = max(float(np.abs(self.values).max()), np.finfo(float).tiny)
         self._units = None if self.vectors is None else np.abs(self.vectors).max(axis=(0, 2))
         self._closed = _closed(self.values)
         self.values, self.vectors = self._scaled(self.values, self.vectors)
@@ -56,6 +57,19 @@ class Sweep:
         where = np.arange(count) if parameter is None else np.asarray(parameter)
         links = np.tile(np.arange(rows.shape[-1] if rows.ndim else 0), (max(count - 1, 0), 1))
         return cls(rows, None if vectors is None else np.asarray(vectors), where.astype(float), links)
+
+    def restricted(self, rows: Index) -> "Sweep":
+        """The sweep at the listed rows only, the links composed over what lies between them."""
+        part = copy(self)
+        order = self.permutation()[rows]
+        part.links = np.take_along_axis(order[1:], np.argsort(order[:-1], axis=1), axis=1)
+        part.values, part.parameter, part._closed = (
+            self.values[rows],
+            self.parameter[rows],
+            self._closed[rows],
+        )
+        part.vectors = None if self.vectors is None else self.vectors[rows]
+        return part
 
     def insert(self, steps: Index, values: ArrayLike, vectors: ArrayLike | None, parameter: Float) -> Index:
         """Put a new point into each of the listed steps and link it; the steps that need another look."""
@@ -76,12 +90,17 @@ class Sweep:
 
     def link_all(self, steps: Index) -> None:
         """Find the links of the listed steps from scratch, and let them and their neighbours settle."""
-        self._link(steps, slopes=False)
+        self._link(steps, sides=0)
         steps = neighbours(steps, len(self.links))
-        for _ in range(_ROUNDS):
-            steps = neighbours(self._link(steps, slopes=True), len(self.links))
-            if not len(steps):
-                break
+        # The slopes before a step carry the branches through crossings; then both sides are weighed.
+        for sides in (1, 2):
+            todo = steps
+            for _ in range(_ROUNDS):
+                # Even and odd steps in turn: two neighbours corrected at once would undo each other.
+                changed = [self._link(todo[todo % 2 == parity], sides) for parity in (0, 1)]
+                todo = neighbours(np.concatenate(changed), len(self.links))
+                if not len(todo):
+                    break
 
     def doubtful(self, steps: Index) -> NDArray[np.bool_]:
         """For the listed steps, whether exchanging two branches would fit nearly as well."""
@@ -89,7 +108,7 @@ class Sweep:
         return np.concatenate([np.zeros(0, dtype=bool), *doubts])
 
     def permutation(self) -> Index:
-        """All links composed: the branches that start in the order of the first row (parallel prefix, log S passes)."""
+        """All links composed, by a parallel prefix: the branches that start in the order of the first row."""
         n = self.values.shape[1]
         total = np.concatenate([np.arange(n)[None, :], self.links])
         reach = 1
@@ -106,21 +125,26 @@ class Sweep:
         length = np.sqrt(np.sum(scaled.real**2 + scaled.imag**2, axis=1, keepdims=True))
         return values / self._size, scaled / np.where(length > 0, length, 1)
 
-    def _link(self, steps: Index, slopes: bool) -> Index:
+    def _link(self, steps: Index, sides: int) -> Index:
         """Solve the listed steps again; the steps whose links changed."""
-        found = [assign(self._cost(block, slopes)) for block in _blocks(steps)]
+        found = [assign(self._cost(block, sides)) for block in _blocks(steps)]
         links = np.concatenate([self.links[:0], *found])
         changed = (links != self.links[steps]).any(axis=1)
         self.links[steps] = links
         return np.asarray(steps[changed], dtype=np.intp)
 
-    def _cost(self, steps: Index, slopes: bool) -> Float:
-        """(m, n, n) cost of every pair; infinite for jumps between the half planes."""
+    def _cost(self, steps: Index, sides: int) -> Float:
+        """(m, n, n) cost of every pair, with slopes on 0, 1 or 2 sides; infinite between the half planes."""
         here, there = self.values[steps], self.values[steps + 1]
         change = there[:, None, :] - here[:, :, None]
-        if slopes:
-            change -= self._predicted(steps)
-        square = change.real**2 + change.imag**2
+        square = np.zeros(change.shape)
+        if sides and len(self.links) > 1:
+            rise, fall = self._slopes(steps)
+            expected = rise if sides == 1 else (rise + fall) / 2
+            kink = expected - rise  # a branch that bounces is as wrong as one that misses its slope
+            square = kink.real**2 + kink.imag**2
+            change -= expected
+        square += change.real**2 + change.imag**2
         n = here.shape[1]
         runner_up = min(1, n - 1)
         by_row = np.partition(square, runner_up, axis=2)[:, :, runner_up, None]
@@ -135,33 +159,37 @@ class Sweep:
         cost[opposite & (self._closed[steps] & self._closed[steps + 1])[:, None, None]] = np.inf
         return cost
 
-    def _predicted(self, steps: Index) -> Complex:
-        """(m, n, n) change expected from the slopes of value i before the step and of value j after it."""
+    def _slopes(self, steps: Index) -> tuple[Complex, Complex]:
+        """(m, n, n) change over a step by the slope of value i before it, and by that of value j after it."""
         last = len(self.links) - 1
         before, after = np.maximum(steps - 1, 0), np.minimum(steps + 1, last)
         width = np.diff(self.parameter)
         source = np.argsort(self.links[before], axis=1)
         rise = self.values[steps] - np.take_along_axis(self.values[before], source, axis=1)
         fall = np.take_along_axis(self.values[after + 1], self.links[after], axis=1) - self.values[steps + 1]
-        has_before, has_after = (steps > 0).astype(float), (steps < last).astype(float)
-        weight = width[steps] / np.maximum(has_before + has_after, 1)
-        rise *= (weight * has_before / width[before])[:, None]
-        fall *= (weight * has_after / width[after])[:, None]
-        return rise[:, :, None] + fall[:, None, :]
+        rise *= (width[steps] / width[before])[:, None]
+        fall *= (width[steps] / width[after])[:, None]
+        has_before, has_after = (steps > 0)[:, None, None], (steps < last)[:, None, None]
+        return (
+            np.where(has_before, rise[:, :, None], fall[:, None, :]),
+            np.where(has_after, fall[:, None, :], rise[:, :, None]),
+        )
 
     def _doubtful_block(self, steps: Index) -> NDArray[np.bool_]:
-        cost = np.take_along_axis(self._cost(steps, slopes=True), self.links[steps][:, None, :], axis=2)
-        own = np.einsum("kii->ki", cost)
-        kept, exchanged = own[:, :, None] + own[:, None, :], cost + cost.transpose(0, 2, 1)
+        doubt = np.zeros((len(steps), *[self.values.shape[1]] * 2), dtype=bool)
+        for sides in (0, 2):
+            cost = np.take_along_axis(self._cost(steps, sides), self.links[steps][:, None, :], axis=2)
+            own = np.einsum("kii->ki", cost)
+            kept, exchanged = own[:, :, None] + own[:, None, :], cost + cost.transpose(0, 2, 1)
+            np.logical_or(doubt, kept > _DOUBTFUL * exchanged, out=doubt)
         here = self.values[steps]
         there = np.take_along_axis(self.values[steps + 1], self.links[steps], axis=1)
-        apart = np.zeros(cost.shape, dtype=bool)
+        apart = np.zeros(doubt.shape, dtype=bool)
         for row in (here, there):
             apart |= (
                 np.abs(row[:, :, None] - row[:, None, :]) > _SAME * np.abs(row).max(axis=1)[:, None, None]
             )
-        result: NDArray[np.bool_] = (apart & (kept > _DOUBTFUL * exchanged)).any(axis=(1, 2))
-        return result
+        return np.asarray((apart & doubt).any(axis=(1, 2)))
 
 
 def neighbours(steps: Index, count: int) -> Index:

@@ -9,9 +9,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from ucrit.numerics.sweep import Sweep
 
+Index = NDArray[np.intp]
 Family = Callable[[NDArray[np.float64]], tuple[ArrayLike, ArrayLike | None]]
 
-_GROWTH = 10  # a sweep that is in doubt everywhere stops at this multiple of the points asked for, plus 1000
+_MARGIN = 4  # rows on either side of a step in doubt that take part in settling it
+_GROWTH = 10  # a sweep that is in doubt everywhere gets at most this multiple of its points, plus 1000
 
 
 @dataclass(frozen=True, eq=False)
@@ -27,7 +29,7 @@ class Tracked:
 
     values: NDArray[np.complex128]
     vectors: NDArray[Any] | None
-    permutation: NDArray[np.intp]
+    permutation: Index
 
     @property
     def branches(self) -> NDArray[np.complex128]:
@@ -78,7 +80,9 @@ def track(values: ArrayLike, vectors: ArrayLike | None = None, parameter: ArrayL
 def refine_where(
     values: ArrayLike, perm: ArrayLike, vectors: ArrayLike | None = None, parameter: ArrayLike | None = None
 ) -> NDArray[np.bool_]:
-    """The steps of a tracked sweep where exchanging two branches would fit nearly as well: points inserted there help.
+    """The steps of a tracked sweep where exchanging two branches would fit nearly as well.
+
+    Points inserted there help to tell them apart.
 
     Parameters
     ----------
@@ -141,17 +145,34 @@ def track_adaptive(function: Family, parameter_values: ArrayLike, max_depth: int
     where = np.asarray(parameter_values, dtype=float)
     values, vectors = function(where)
     sweep = Sweep.unlinked(values, vectors, where)
-    asked = np.arange(len(where))
     steps = np.arange(len(sweep.links))
     sweep.link_all(steps)
+    steps = steps[sweep.doubtful(steps)]
+    if len(steps):
+        # Only the surroundings of the steps in doubt are worked on: the rest may be long.
+        rows = np.unique(np.clip(steps[:, None] + np.arange(-_MARGIN, _MARGIN + 2), 0, len(where) - 1))
+        local = sweep.restricted(rows)
+        order = _refined(local, np.searchsorted(rows, steps), function, max_depth, len(where))
+        whole = np.flatnonzero(np.diff(rows) == 1)
+        sweep.links[rows[whole]] = np.take_along_axis(
+            order[whole + 1], np.argsort(order[whole], axis=1), axis=1
+        )
+    given = None if vectors is None else np.asarray(vectors)
+    return Tracked(np.asarray(values, dtype=complex), given, sweep.permutation())
+
+
+def _refined(sweep: Sweep, steps: Index, function: Family, max_depth: int, count: int) -> Index:
+    """The permutation at the rows of `sweep` after points were inserted into the steps in doubt."""
+    asked = np.arange(len(sweep.values))
+    inserted = 0
     for _ in range(max_depth):
-        steps = steps[sweep.doubtful(steps)]
         middle = (sweep.parameter[steps] + sweep.parameter[steps + 1]) / 2
         inside = (middle != sweep.parameter[steps]) & (middle != sweep.parameter[steps + 1])
         steps, middle = steps[inside], middle[inside]
-        if not len(steps) or len(sweep.values) + len(steps) > _GROWTH * len(where) + 1000:
+        inserted += len(steps)
+        if not len(steps) or inserted > _GROWTH * count + 1000:
             break
         asked = asked + np.searchsorted(steps, asked)
         steps = sweep.insert(steps, *function(middle), middle)
-    given = None if vectors is None else np.asarray(vectors)
-    return Tracked(np.asarray(values, dtype=complex), given, sweep.permutation()[asked])
+        steps = steps[sweep.doubtful(steps)]
+    return sweep.permutation()[asked]

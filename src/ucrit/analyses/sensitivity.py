@@ -1,0 +1,191 @@
+"""How eigenvalues, growth and critical speeds change with every parameter.
+
+For a simple eigenvalue with right vector x and left vector y, ``d lambda/dp = y A' x / (y x)``
+(P. Lancaster, Numerische Mathematik 6 (1964) 377-387). A repeated eigenvalue has no such derivative.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..core.compiled import compiled, direction, labels, state_slopes, state_space
+from ..core.model import Model
+from .convert import Series, Table, Tabular, complex_series, unit_of
+from .critical import Critical, critical
+from .modes import eigensystem, modes
+
+Array = npt.NDArray[Any]
+
+GAP = 1e-7
+"""Eigenvalues closer than this share of the largest one count as repeated."""
+
+ERROR = 1e-6
+"""Derivatives whose relative error from rounding may exceed this are withheld."""
+
+AXIS = 1e-7
+"""Real parts below this share of the largest eigenvalue count as zero at a critical speed."""
+
+
+@dataclass(frozen=True)
+class CriticalSlope:
+    """How one critical speed changes with every parameter.
+
+    Attributes
+    ----------
+    critical
+        The critical speed.
+    slopes
+        dU_crit/dp by parameter, in m/s per unit of the parameter; nan where the speed has no derivative (two modes
+        cross together, an eigenvalue is repeated there, or the axis is touched and not crossed).
+    normalised
+        ``p/U_crit dU_crit/dp``: percent of critical speed per percent of parameter.
+    """
+
+    critical: Critical
+    slopes: dict[str, float]
+    normalised: dict[str, float]
+
+
+@dataclass(frozen=True, eq=False)
+class Sensitivity(Tabular):
+    """Derivatives of a vehicle's eigenvalues and critical speeds.
+
+    Attributes
+    ----------
+    vehicle
+        Its array parameters span the leading dimensions.
+    names
+        Names of the eigenvalues, their numbers where parameters are arrays.
+    eigenvalues
+        Shape (..., n) [1/s], least stable first.
+    slopes
+        By parameter p, shape (..., n): d(eigenvalue)/dp [1/s per unit of p], complex; nan where the eigenvalue is
+        repeated (closer than 1e-7 of the largest to another) or so ill-conditioned that rounding may spoil it.
+    growth
+        By parameter, shape (...): derivative of the largest real part [1/s per unit of p], nan as above.
+    critical
+        One entry for each critical speed, ascending; empty for array parameters and for models without speed.
+    """
+
+    vehicle: Model
+    names: tuple[str, ...]
+    eigenvalues: Array
+    slopes: dict[str, Array]
+    growth: dict[str, Array]
+    critical: tuple[CriticalSlope, ...]
+
+    @property
+    def normalised(self) -> dict[str, Array]:
+        """``p d(eigenvalue)/dp`` [1/s] by parameter: change of the eigenvalue per relative change of the parameter."""
+        values = dict(zip(self.vehicle.values, self.vehicle.arguments(), strict=True))
+        return {name: slope * np.asarray(values[name])[..., None] for name, slope in self.slopes.items()}
+
+    def table(self) -> Table:
+        """Return the slopes, one variable a parameter."""
+        dims = tuple(self.vehicle.dims)
+        coords = [Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.vehicle.dims.items()]
+        coords.append(Series("mode", ("mode",), np.array(self.names)))
+        data = list(complex_series("eigenvalue", (*dims, "mode"), self.eigenvalues, "1/s"))
+        for name, slope in self.slopes.items():
+            unit = _per("1/s", unit_of(self.vehicle, name))
+            data += complex_series(f"d_eigenvalue_d_{name}", (*dims, "mode"), slope, unit)
+            data.append(Series(f"d_growth_d_{name}", dims, np.asarray(self.growth[name]), unit))
+        return Table("sensitivity", self.vehicle, tuple(coords), tuple(data), (*dims, "mode"))
+
+
+def _per(unit: str, divisor: str) -> str:
+    return unit if divisor == "1" else f"{unit} per {divisor}"
+
+
+def sensitivity(vehicle: Model) -> Sensitivity:
+    """Differentiate eigenvalues, growth and critical speeds with respect to every parameter.
+
+    Parameters
+    ----------
+    vehicle
+        Array parameters span leading dimensions of the result; critical speeds need scalars.
+
+    Returns
+    -------
+    Sensitivity
+        Exact derivatives, not differences: the matrices are differentiated in symbols.
+
+    Examples
+    --------
+    >>> from ucrit import load
+    >>> found = sensitivity(load("caravan"))
+    >>> found.growth["c"] < 0, found.critical[0].slopes["c"] > 0
+    (True, True)
+    """
+    values, slopes = _slopes(vehicle)
+    worst = np.argmax(np.where(values == 0, -np.inf, values.real), axis=-1)[..., None]
+    growth = {name: np.take_along_axis(slope.real, worst, axis=-1)[..., 0] for name, slope in slopes.items()}
+    scalar = not vehicle.dims
+    names = modes(vehicle).names if scalar else tuple(map(str, range(1, len(labels(vehicle)) + 1)))
+    found: tuple[CriticalSlope, ...] = ()
+    if scalar and type(vehicle).declaration.speed is not None:
+        found = tuple(_critical_slope(vehicle, one) for one in critical(vehicle))
+    return Sensitivity(vehicle, names, values, slopes, growth, found)
+
+
+def _slopes(vehicle: Model) -> tuple[Array, dict[str, Array]]:
+    """Eigenvalues and their derivatives by parameter."""
+    values, right = eigensystem(vehicle)
+    A = state_space(vehicle).A
+    left, sure = _left(A, values, right)
+    rigid = np.zeros(values.shape, dtype=bool)
+    if compiled(type(vehicle), direction(vehicle)).structural_zeros:
+        rigid = values == 0
+    slopes = {}
+    for name, dA in state_slopes(vehicle).items():
+        slope = np.einsum("...ki,...ij,...jk->...k", left, dA, right)
+        # Rigid positions stay at zero whatever the parameters.
+        slopes[name] = np.where(rigid, 0, np.where(sure, slope, complex(np.nan, np.nan)))
+    return values, slopes
+
+
+def _left(A: Array, values: Array, right: Array) -> tuple[Array, Array]:
+    """Left vectors in rows, scaled to ``y x = 1``, and which eigenvalues are simple enough to have a derivative.
+
+    Each solves a bordered system that is regular exactly if its eigenvalue is simple, whatever the others are.
+    """
+    n = values.shape[-1]
+    size = np.abs(values).max(axis=-1, keepdims=True) + np.finfo(float).tiny
+    apart = np.abs(values[..., :, None] - values[..., None, :]) + np.where(np.eye(n, dtype=bool), np.inf, 0)
+    gap = apart.min(axis=-1, initial=np.inf) / size
+    simple = gap > GAP
+    bordered = np.zeros((*values.shape, n + 1, n + 1), dtype=complex)
+    bordered[..., :n, :n] = np.swapaxes(A, -1, -2)[..., None, :, :] - values[..., None, None] * np.eye(n)
+    columns = np.swapaxes(right, -1, -2)
+    bordered[..., :n, n] = np.conj(columns) * size[..., None]
+    bordered[..., n, :n] = columns
+    bordered[~simple] = np.eye(n + 1)
+    target = np.zeros((*values.shape, n + 1, 1), dtype=complex)
+    target[..., n, 0] = 1
+    left = np.linalg.solve(bordered, target)[..., :n, 0]
+    spread = np.abs(left * columns).sum(axis=-1)
+    error = np.finfo(float).eps * spread / np.where(simple, gap, 1)
+    return left, simple & (error < ERROR)
+
+
+def _critical_slope(vehicle: Model, one: Critical) -> CriticalSlope:
+    """Differentiate Re(lambda(U, p)) = 0, which holds along the boundary."""
+    there = vehicle.with_(**{one.parameter: one.value})
+    values, slopes = _slopes(there)
+    moving = (values != 0) if compiled(type(there), direction(there)).structural_zeros else np.ones(values.shape, bool)
+    on_axis = moving & (np.abs(values.real) <= AXIS * np.abs(values).max()) & (values.imag >= 0)
+    across = np.nan
+    if np.count_nonzero(on_axis) == 1 and one.kind != "order":
+        across = float(slopes[one.parameter][on_axis][0].real)
+    result = {}
+    for name, slope in slopes.items():
+        if name != one.parameter:
+            ratio = -float(slope[on_axis][0].real) / across if across and np.isfinite(across) else np.nan
+            result[name] = ratio + 0.0
+    values_now = {name: float(vehicle.values[name]) for name in result}
+    normalised = {name: slope * values_now[name] / one.value for name, slope in result.items()}
+    return CriticalSlope(one, result, normalised)

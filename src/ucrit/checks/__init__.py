@@ -1,0 +1,50 @@
+"""Checks of a model: units, published equations and numbers, further derivations, symmetry, conservation.
+
+``check_model`` runs every check that applies to a model, shipped or a user's own, and says why others do not::
+
+    print(check_model(MyTrailer, published="my_trailer.toml"))
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from ..core.model import Model
+from .report import Check, Report
+from .subject import Subject
+from .suite import run
+
+__all__ = ["Check", "Report", "check_model"]
+
+
+def check_model(
+    model: type[Model] | Model, seed: int = 0, published: str | os.PathLike[str] | None = None
+) -> Report:
+    """Run every check that applies to a model and report what came out.
+
+    Parameters
+    ----------
+    model
+        A model class, or a vehicle, about whose values random parameters are then drawn.
+    seed
+        Seed of the random parameters and states.
+    published
+        TOML file of equations and numbers to compare with; by default the shipped one of the model.
+
+    Returns
+    -------
+    Report
+        One `Check` per check; those that did not apply say why.
+
+    Examples
+    --------
+    >>> from ucrit.models.trailer_kinematic import TrailerKinematic
+    >>> report = check_model(TrailerKinematic)
+    >>> report.ok
+    True
+    >>> print(report.checks[3])
+    pass  published polynomial: 1 published polynomials agree
+    """
+    subject = Subject.of(model, seed, None if published is None else Path(published))
+    return Report(subject.model.model_id(), tuple(run(subject)))

@@ -1,0 +1,155 @@
+"""Do published criteria, critical values and eigenvalues agree with the eigenvalues derived?"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mpmath
+import numpy as np
+import numpy.typing as npt
+
+from ..analyses.criteria import criteria
+from ..catalogue import load
+from ..core.codegen import build, generate
+from ..core.compiled import compiled, state_space
+from ..core.errors import near_match
+from ..core.model import Model
+from .precise import DIGITS, EQUAL, numeric
+from .published import Entry
+from .report import FailedCheckError, NotApplicableError
+from .sample import Array
+from .states import stacked
+from .subject import Subject
+
+Flags = npt.NDArray[np.bool_]
+
+COUNT = 500
+MAX_ORDER = 5
+NEAR = 1e-7
+
+
+def criterion(subject: Subject) -> str:
+    """Published expressions are all positive exactly where the eigenvalues say stable."""
+    entries = subject.published("criterion")
+    for entry in entries:
+        traced = subject.traced
+        wanted = entry.content["expression"]
+        given = entry.formulas(wanted if isinstance(wanted, list) else [wanted], traced.parameters)
+        function = build(generate("criterion", [list(traced.parameters.values())], given), "criterion")
+        verdicts = set()
+        for direction in (1, -1) if entry.direction == 0 else (entry.direction,):
+            sets = subject.parameter_sets(entry.where, COUNT, direction)
+            positive = np.all(stacked(function(sets), sets[0][None]) > 0, axis=0)
+            stable, clear = _stable(subject, sets, direction)
+            if np.any(positive[clear] != stable[clear]):
+                raise FailedCheckError(f"{entry.where}: eigenvalues and criterion disagree")
+            verdicts |= set(positive[clear].tolist())
+        if len(verdicts) < 2:
+            raise FailedCheckError(f"{entry.where}: {COUNT} random vehicles are all alike, which tests nothing")
+    return f"{len(entries)} published criteria agree with the eigenvalues of {COUNT} random vehicles"
+
+
+def _stable(subject: Subject, sets: list[Array], direction: int) -> tuple[Flags, Flags]:
+    """Return where the eigenvalues, without structural zeros, say stable, and where they say so clearly.
+
+    Where no motion ever decays (no odd powers of s), stable means that all eigenvalues are on the imaginary axis.
+    """
+    made, polynomial = compiled(subject.model, direction), subject.system(direction).polynomial
+    roots = np.linalg.eigvals(made.state_space(sets).A)
+    order = np.argsort(np.abs(roots), axis=-1)[:, made.structural_zeros :]
+    largest = np.take_along_axis(roots.real, order, axis=-1).max(axis=-1)
+    near = np.abs(largest) <= NEAR * np.abs(roots).max(axis=-1)
+    if not any(polynomial.coefficients[polynomial.zeros + 1 :: 2]):
+        return near, np.ones_like(near)
+    return largest < 0, ~near
+
+
+def derived_criterion(subject: Subject) -> str:
+    """The symbolic criterion that is derived from the model is met exactly where the eigenvalues say stable."""
+    for direction in subject.directions:
+        order = len(subject.system(direction).polynomial.coefficients) - 1
+        if order > MAX_ORDER:
+            raise NotApplicableError(f"criteria in all parameters are for order {MAX_ORDER} at most, not {order}")
+        found = criteria(subject.model, direction=direction)
+        sets = subject.parameter_sets("derived criterion", COUNT, direction)
+        values = dict(zip(subject.model.declaration.parameters, sets, strict=True))
+        met = np.full(COUNT, found.settled is not False)
+        for condition in found:
+            met &= np.asarray(condition.value(subject.model(**values).along("sample", **values))) > 0
+        stable, clear = _stable(subject, sets, direction)
+        if np.any(met[clear] != stable[clear]):
+            raise FailedCheckError("the derived criterion and the eigenvalues disagree")
+    return f"the derived criterion agrees with the eigenvalues of {COUNT} random vehicles"
+
+
+def critical(subject: Subject) -> str:
+    """At a published critical value an eigenvalue lies on the imaginary axis."""
+    entries = subject.published("critical")
+    for entry in entries:
+        traced = subject.system(entry.direction).traced
+        name = entry.content["parameter"]
+        if name not in traced.parameters:
+            raise FailedCheckError(f"{entry.where}: there is no parameter '{name}'{near_match(name, traced.parameters)}")
+        if not _meets_axis(subject, entry, name):
+            raise FailedCheckError(f"{entry.where}: no eigenvalue is on the imaginary axis at this {name}")
+    return f"{len(entries)} published critical values put an eigenvalue on the imaginary axis"
+
+
+def _meets_axis(subject: Subject, entry: Entry, name: str) -> bool:
+    """Tell whether the characteristic polynomial has a root on the axis wherever the critical value is possible."""
+    system, parameters = subject.system(entry.direction), subject.model.declaration.parameters
+    symbols = system.traced.parameters
+    index, power = list(symbols).index(name), int(entry.content.get("power", 1))
+    value = numeric([entry.formulas(entry.content["expression"], symbols)], list(symbols.values()))
+    coefficients = numeric(system.polynomial.expressions[system.polynomial.zeros :], list(symbols.values()))
+    tried = 0
+    with mpmath.workdps(DIGITS):
+        for point in subject.points(entry.where, entry.direction, 200):
+            found = mpmath.re(value(point)[0])
+            if (power % 2 == 0 and found < 0) or tried == 3:
+                continue
+            root = mpmath.sign(found) * abs(found) ** (mpmath.mpf(1) / power)
+            if parameters[name].allows(float(root)):
+                tried += 1
+                a = coefficients([*point[:index], root, *point[index + 1 :]])
+                if not _on_axis(a):
+                    return False
+    if not tried:
+        raise FailedCheckError(f"{entry.where}: the critical {name} is nowhere {parameters[name].allowed}")
+    return True
+
+
+def _on_axis(ascending: list[Any]) -> bool:
+    roots = mpmath.polyroots(ascending[::-1], maxsteps=200, extraprec=200)
+    size = max(abs(root) for root in roots)
+    return any(abs(mpmath.re(root)) < mpmath.sqrt(EQUAL) * size for root in roots)
+
+
+def numbers(subject: Subject) -> str:
+    """Published eigenvalues come out to the digits that are printed."""
+    entries = subject.published("numbers")
+    for entry in entries:
+        vehicle = _vehicle(subject.model, entry)
+        expected = [complex(*pair) for pair in entry.content["eigenvalues"]]
+        got = np.linalg.eigvals(state_space(vehicle).A)
+        size = float(np.abs(got).max())
+        if len(expected) > len(got):
+            raise FailedCheckError(f"{entry.where}: {len(expected)} eigenvalues published, {len(got)} found")
+        for value in expected:
+            nearest, got = _taken(got, value)
+            if abs(nearest - value) > float(entry.content["tolerance"]) * max(abs(value), NEAR * size):
+                raise FailedCheckError(f"{entry.where}: eigenvalue {value:g} published, {nearest:.9g} found")
+    return f"{sum(len(entry.content['eigenvalues']) for entry in entries)} published eigenvalues agree"
+
+
+def _taken(values: npt.NDArray[Any], near: complex) -> tuple[complex, npt.NDArray[Any]]:
+    """Return the nearest value and the others."""
+    nearest = int(np.argmin(np.abs(values - near)))
+    return complex(values[nearest]), np.delete(values, nearest)
+
+
+def _vehicle(model: type[Model], entry: Entry) -> Model:
+    values = dict(entry.content.get("parameters", {}))
+    if "vehicle" in entry.content:
+        values = {**load(entry.content["vehicle"]).values, **values}
+    return model(**values)

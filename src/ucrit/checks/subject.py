@@ -1,0 +1,130 @@
+"""What is checked: a model with its derived equations, random parameter sets and published data at hand."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ..catalogue import PUBLISHED
+from ..core.compiled import Motion, motion
+from ..core.derive import symbolic
+from ..core.linear import LinearSystem
+from ..core.model import STATEMENTS, Model, Names
+from ..core.trace import Traced, trace
+from .published import Entry, read_published
+from .report import NotApplicableError
+from .sample import Array, parameter_sets, vehicles_of
+
+
+@dataclass(frozen=True)
+class Subject:
+    """A model class under check, and the vehicles about which random parameters are drawn."""
+
+    model: type[Model]
+    vehicles: tuple[Model, ...]
+    seed: int = 0
+    published_file: Path | None = None
+
+    @classmethod
+    def of(cls, model: type[Model] | Model, seed: int, published: Path | None) -> Subject:
+        """Return the subject for a class or for a vehicle."""
+        if isinstance(model, Model):
+            return cls(type(model), (model,), seed, published)
+        return cls(model, vehicles_of(model.model_id()), seed, published)
+
+    @property
+    def directions(self) -> tuple[int, ...]:
+        """Signs of the speed for which the model is made."""
+        speed = self.model.declaration.speed
+        reverse = speed is not None and self.model.declaration.parameters[speed].sign is None
+        return (1, -1) if reverse else (1,)
+
+    @property
+    def either(self) -> int:
+        """Direction that stands for all that the model is made for."""
+        return 0 if len(self.directions) > 1 else 1
+
+    def system(self, direction: int = 1) -> LinearSystem:
+        """Linear equations in symbols."""
+        return symbolic(self.model, direction)
+
+    @cached_property
+    def traced(self) -> Traced:
+        """Non-linear equations in symbols, for either direction of speed."""
+        return trace(self.model, direction=None)
+
+    @cached_property
+    def motion(self) -> Motion:
+        """Compiled non-linear motion."""
+        return motion(self.model)
+
+    @property
+    def derivations(self) -> list[str]:
+        """Names of the methods that derive the equations again."""
+        return sorted(name for name in dir(self.model) if name.startswith("equations_") and self.is_current(name))
+
+    def is_current(self, method: str) -> bool:
+        """Tell whether a method is no older in the line of classes than the statement of motion in use.
+
+        One that a base class wrote for its own equations says nothing about those of a class that states new ones.
+        """
+        lines = [vars(base) for base in self.model.__mro__]
+        stated = next(i for i, names in enumerate(lines) if any(name in names for name in STATEMENTS))
+        return any(method in names for names in lines[: stated + 1])
+
+    def groups(self, traced: Traced) -> dict[str, Names]:
+        """Symbols of variables, rates and inputs as a model's methods take them."""
+        names = list(self.model.declaration.variables)
+        values = [
+            {name: chain[k] for name, chain in zip(names, traced.q, strict=False) if k < len(chain)}
+            for k in range(3)
+        ]
+        groups = {group: Names(group, values[k]) for k, group in enumerate(("x", "dx", "ddx"))}
+        inputs = dict(zip(self.model.declaration.inputs, traced.u, strict=True))
+        return {**groups, "u": Names("u", inputs)}
+
+    def rng(self, purpose: str) -> np.random.Generator:
+        """Return a generator of its own for every purpose, the same in every run."""
+        return np.random.default_rng([self.seed, zlib.crc32(purpose.encode())])
+
+    def parameter_sets(self, purpose: str, count: int, direction: int = 1) -> list[Array]:
+        """Return random values of every parameter."""
+        return parameter_sets(self.model, self.rng(purpose), count, direction, self.vehicles)
+
+    def points(self, purpose: str, direction: int = 1, count: int = 3) -> list[Sequence[float]]:
+        """Return a few random parameter sets, one a row."""
+        sets = self.parameter_sets(purpose, count, direction)
+        return [tuple(float(values[i]) for values in sets) for i in range(count)]
+
+    @cached_property
+    def _published(self) -> Mapping[str, list[Entry]]:
+        path = self.published_file or PUBLISHED / f"{self.model.model_id().replace('-', '_')}.toml"
+        return read_published(path) if self.published_file or path.is_file() else {}
+
+    def published(self, table: str) -> list[Entry]:
+        """Return the published entries of a table, of which there is at least one."""
+        entries = self._published.get(table, [])
+        if not entries:
+            raise NotApplicableError(f"nothing is published as [[{table}]]")
+        return entries
+
+    def parameter_names(self, traced: Traced) -> dict[str, Any]:
+        """Meaning of the parameters' names in published formulas."""
+        return dict(traced.parameters)
+
+    def motion_names(self, traced: Traced) -> dict[str, Any]:
+        """Meaning of all names in published equations of motion: ``m``, ``dx.theta``, ``u.delta_f``."""
+        groups = self.groups(traced)
+        dotted = {
+            f"{group}.{name}": symbol
+            for group, names in groups.items()
+            for name, symbol in vars(names).items()
+            if not name.startswith("_")
+        }
+        return {**self.parameter_names(traced), **dotted}

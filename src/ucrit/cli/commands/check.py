@@ -1,0 +1,48 @@
+"""``ucrit check``: is a model what it claims to be?"""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from ..parameters import Name
+
+FAILED = 1
+
+
+@click.command("check", short_help="Check a model: units, published equations and numbers, symmetry, energy.")
+@click.argument("model", type=Name("model", "vehicle", suffix=".py"))
+@click.option(
+    "--published", metavar="FILE.toml", type=click.Path(), help="Equations and numbers to compare with."
+)
+def command(model: str, published: str | None) -> int:
+    """Check MODEL: units, published equations and numbers, further derivations, symmetry, energy.
+
+    MODEL is a model's name, a vehicle, or a Python file, all of whose models are then checked
+    (file.py:Class checks one).
+
+    \b
+    Examples:
+      ucrit check trailer
+      ucrit check my_model.py
+      ucrit check my_model.py:Caster --published caster.toml
+
+    Exit status: 0 all checks passed; 1 one failed; 2 wrong input.
+    """
+    from ...analyses.show import resolve
+    from ...catalogue import models_in_file
+    from ...checks import check_model
+    from ..render_model import show_report
+    from ..terminal import terminal
+
+    if model.endswith(".py"):
+        subjects: list[Any] = list(models_in_file(Path(model)))
+    else:
+        found, vehicle = resolve(model)
+        subjects = [found if vehicle is None else vehicle]
+    reports = [check_model(subject, published=published) for subject in subjects]
+    for report in reports:
+        show_report(terminal(), report)
+    return 0 if all(report.ok for report in reports) else FAILED

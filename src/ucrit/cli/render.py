@@ -1,0 +1,191 @@
+"""An analysis as text for a terminal; all that is computed here is how numbers are rounded."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+from ..analyses.remedies import Remedy, remedies
+from ..analyses.wording import speed_text
+from ..core.errors import UcritError
+from .terminal import Page, vehicle_head
+from .wrap import DIGITS, decimal_text, number, rounded, shorten
+
+if TYPE_CHECKING:
+    from rich.console import Console
+
+    from ..analyses.analyze import Analysis
+    from ..analyses.critical import Critical
+    from ..analyses.modes import Mode
+
+CLOSED_FORM_LINES = 6
+CRITERION_LINES = 16
+
+
+def show_analysis(console: Console, found: Analysis, report: str | None = None) -> None:
+    """Print an analysis; ``report`` is the file that it has been written to."""
+    page = Page(console)
+    vehicle_head(page, found.vehicle)
+    _verdict(page, found)
+    _critical(page, found)
+    _modes(page, found)
+    _criteria(page, found)
+    _remedies(page, found)
+    if report is not None:
+        page.line()
+        page.line(f"The report is in {report}")
+
+
+def verdict_word(found: Analysis) -> tuple[str, str]:
+    """Return the verdict as one word and its colour."""
+    if found.stable:
+        return ("NEUTRAL", "yellow") if found.verdict.state == "neutral" else ("STABLE", "green")
+    if found.verdict.stable:
+        return "STABLE IN PART", "yellow"
+    return ("NEUTRAL", "yellow") if found.verdict.state == "neutral" else ("UNSTABLE", "red")
+
+
+def _verdict(page: Page, found: Analysis) -> None:
+    word, colour = verdict_word(found)
+    at = "" if found.speed is None else f" at {_speed(found.speed)}"
+    page.line()
+    page.line((word, f"bold {colour}"), (at, "bold"))
+    sentence = found.sentence
+    page.paragraph(sentence[:1].upper() + sentence[1:] + ".")
+
+
+def _speed(speed: float) -> str:
+    return speed_text(abs(speed)) + (" backing up" if speed < 0 else "")
+
+
+def _critical(page: Page, found: Analysis) -> None:
+    if found.critical is None:
+        return
+    page.heading("Critical speeds")
+    values = sorted(found.critical, key=lambda c: abs(c.value))
+    if not values:
+        page.paragraph("none, whatever the speed", indent=2)
+    for c in values:
+        page.paragraph(f"{_speed(c.value)}: {_event(c)}", indent=2, hanging=2)
+        if c.closed_form:
+            page.formula(str(c.closed_form), indent=6, most=CLOSED_FORM_LINES)
+    if not found.critical.exact:
+        page.paragraph("(searched numerically: one may have been missed)", "dim", indent=2)
+
+
+def _event(c: Critical) -> str:
+    subject = c.mode.rpartition(" ")[0]
+    what = "oscillation" if c.kind == "flutter" else "motion"
+    at = f" at {number(c.frequency_hz)} Hz" if c.frequency_hz else ""
+    sides = {"below": "below", "above": "above"}
+    if c.value < 0:  # backing up, the lower value is the higher speed
+        sides = {"below": "above", "above": "below"}
+    return f"{c.kind} of the {subject} {what}{at}; stable {sides[c.stable]}"
+
+
+def _modes(page: Page, found: Analysis) -> None:
+    page.heading("Modes" if found.speed is None else f"Modes at {_speed(found.speed)}")
+    head = ["mode", "eigenvalue [1/s]", "Hz", "damping", "in time"]
+    rows = [[mode.name, *_mode_cells(mode, page.plus_minus)] for mode in found.modes]
+    widths = [max(len(row[i]) for row in [head, *rows]) for i in range(1, 5)]
+    name_width = min(max(len(row[0]) for row in [head, *rows]), page.width - 2 - sum(w + 2 for w in widths))
+    for number_, row in enumerate([head, *rows]):
+        cells = [cell.rjust(w) for cell, w in zip(row[1:4], widths, strict=False)] + [row[4]]
+        style = "dim" if number_ == 0 else ""
+        if len(row[0]) > name_width:
+            page.line("  " + row[0])
+        name = row[0] if len(row[0]) <= name_width else ""
+        page.line((f"  {name:<{name_width}}  " + "  ".join(cells), style))
+        if number_:
+            page.paragraph(_shares(found.modes[number_ - 1]), "dim", indent=6)
+
+
+def _mode_cells(mode: Mode, plus_minus: str) -> list[str]:
+    re, im = mode.eigenvalue.real, mode.eigenvalue.imag
+    value = number(re) + (f" {plus_minus} {number(im)}j" if im else "")
+    ratio = number(mode.damping_ratio, 3) if math.isfinite(mode.damping_ratio) else "-"
+    time = "stays"
+    if re > 0:
+        time = f"doubles {number(mode.time_to_double, 3)} s"
+    elif re < 0:
+        time = f"halves {number(mode.time_to_half, 3)} s"
+    return [value, number(mode.frequency_hz) if im else "-", ratio, time]
+
+
+def _shares(mode: Mode) -> str:
+    """Return which states take part; those below two percent are left out."""
+    shares = sorted(mode.participation.items(), key=lambda item: -item[1])
+    return ", ".join(f"{name} {share:.0%}" for name, share in shares if share >= 0.02)
+
+
+def _criteria(page: Page, found: Analysis) -> None:
+    if found.criteria is None:
+        page.heading("Criteria")
+        page.paragraph(found.why_no_criteria, indent=2)
+        return
+    if found.criteria.settled is not None:
+        page.heading("Criteria")
+        page.paragraph(str(found.criteria), indent=2)
+        return
+    holding = [c for c in found.criteria if c not in found.failing]
+    if found.failing:
+        page.heading("Stability needs, and it fails" + ("" if found.speed is None else " at this speed"))
+        for c in found.failing:
+            page.line("  ", (f"{c.name}, against {_failure(c.failure)}", "red"))
+            page.formula(str(c), indent=6, most=CRITERION_LINES)
+    if holding:
+        page.heading("Stability needs, and it holds" + ("" if found.speed is None else " at this speed"))
+        names = max(len(c.name) for c in holding)
+        for c in holding:
+            page.line("  " + shorten(f"{c.name:<{names}}  {c}", page.width - 2))
+
+
+def _failure(kind: str) -> str:
+    return "a root passing through infinity" if kind == "order" else kind
+
+
+def _remedies(page: Page, found: Analysis) -> None:
+    if found.stable:
+        page.heading("Remedies: none needed")
+        return
+    helping = [r for r in found.remedies if r.value is not None]
+    if helping:
+        page.heading("Remedies, each enough alone, the smallest change first")
+        page.table([_remedy_cells(r, found) for r in helping], right=(2, 5))
+    else:
+        page.heading("Remedies: no parameter alone makes it stable")
+    useless = [r.parameter for r in found.remedies if r.value is None]
+    if useless:
+        page.paragraph(f"no value helps: {', '.join(useless)}", "dim", indent=2, hanging=2)
+
+
+def _remedy_cells(remedy: Remedy, found: Analysis) -> list[str]:
+    assert remedy.value is not None
+    word = "at least" if remedy.value > remedy.present else "at most"
+    text = safe_value(remedy, found)
+    unit = "" if remedy.unit == "1" else remedy.unit
+    change = _percent((float(text) - remedy.present) / abs(remedy.present)) if remedy.present else ""
+    return [remedy.parameter, word, text, unit, f"instead of {number(remedy.present, 6)}", change]
+
+
+def _percent(share: float) -> str:
+    return f"{'+' if share > 0 else ''}{number(100 * share, 2)} %"
+
+
+def safe_value(remedy: Remedy, found: Analysis) -> str:
+    """Return a remedy's value with as few digits, from four on, as still make the vehicle stable."""
+    assert remedy.value is not None
+    sense = 1 if remedy.value > remedy.present else -1
+    parameter = type(found.vehicle).declaration.parameters[remedy.parameter]
+    for digits in range(DIGITS, 16):
+        value = rounded(remedy.value, digits, sense)
+        if parameter.allows(float(value)) and _helps(found, remedy.parameter, float(value)):
+            return decimal_text(value)
+    return repr(remedy.value)
+
+
+def _helps(found: Analysis, parameter: str, value: float) -> bool:
+    try:
+        return not remedies(found.vehicle.with_(**{parameter: value}))
+    except UcritError:
+        return False

@@ -1,0 +1,35 @@
+"""Axes: x along the track, y to the left; psi positive counter-clockwise seen from above. SI units and radians.
+
+The truck frame moves straight with speed V. f_x acts along, f_y across the rolling direction, for one wheel.
+"""
+
+from ..core import Model, coordinate, param, speed
+from ..parts.creep import contact_velocities, creep_forces
+
+
+class Wheelset(Model):
+    """Wheelset sprung in a truck frame that moves straight (Karnopp 2004, section 10.II)."""
+
+    m: float = param("kg", "mass of the wheelset", above=0)
+    I: float = param("kg m^2", "yaw moment of inertia of the wheelset", above=0)
+    d: float = param("m", "half the distance between the contact points", above=0)
+    r_0: float = param("m", "rolling radius in the central position", above=0)
+    lambda_: float = param("1", "conicity: slope of the treads, positive when the flange side is larger")
+    f_x: float = param("N", "longitudinal creep coefficient of a wheel", above=0)
+    f_y: float = param("N", "lateral creep coefficient of a wheel", above=0)
+    k_1: float = param("N/m", "lateral stiffness between wheelset and frame", above=0)
+    k_2: float = param("N m/rad", "yaw stiffness between wheelset and frame", above=0)
+    V: float = speed("forward speed")
+
+    y = coordinate("m", "lateral displacement of the wheelset", motion="lateral")
+    psi = coordinate("rad", "yaw angle of the wheelset", motion="yaw")
+
+    def kinetic_energy(self, x, dx):
+        return self.m * dx.y**2 / 2 + self.I * dx.psi**2 / 2
+
+    def potential_energy(self, x):
+        return self.k_1 * x.y**2 / 2 + self.k_2 * x.psi**2 / 2
+
+    def forces(self, x, dx):
+        velocities = contact_velocities(self.V, x.y, x.psi, dx.y, dx.psi, self.d, self.r_0, self.lambda_)
+        return creep_forces(self.V, velocities, self.f_x, self.f_y)

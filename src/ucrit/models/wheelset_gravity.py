@@ -1,0 +1,26 @@
+"""Axes and signs as in the wheelset. SI units and radians.
+
+Each wheel carries the load N. Displaced by y, the hollow tread (radius R_t) on the rounder rail head (radius R_r) rises
+on one side by more than it falls on the other, y^2/(2 R) a wheel on the mean with 1/R = 1/(R_t - R_r); yawed by psi, the
+cones touch the rails further out, where they are thinner, and sink by conicity * d psi^2/2.
+"""
+
+from ..core import param
+from .wheelset import Wheelset
+
+
+class WheelsetGravity(Wheelset):
+    """Wheelset with dampers, whose load rises and falls on the profiles (Karnopp 2004, problems of chapter 10)."""
+
+    N: float = param("N", "vertical load of a wheel", at_least=0)
+    R: float = param("m", "radius of the tread's hollow less that of the rail head", above=0)
+    c_1: float = param("N s/m", "lateral damping between wheelset and frame", at_least=0)
+    c_2: float = param("N m s/rad", "yaw damping between wheelset and frame", at_least=0)
+
+    def potential_energy(self, x):
+        rise = x.y**2 / (2 * self.R) - self.lambda_ * self.d * x.psi**2 / 2
+        return super().potential_energy(x) + 2 * self.N * rise
+
+    def forces(self, x, dx):
+        dampers = (-self.c_1 * dx.y, dx.y), (-self.c_2 * dx.psi, dx.psi)
+        return (*super().forces(x, dx), *dampers)

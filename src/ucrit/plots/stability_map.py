@@ -1,0 +1,118 @@
+"""Stability over two parameters: which combinations are stable, and where the vehicle lies."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..core.errors import UcritError
+from . import labels, style
+
+if TYPE_CHECKING:
+    from ..analyses.stability_map import StabilityMap
+    from ..core.declare import Parameter
+    from ..core.model import Model
+
+Array = npt.NDArray[Any]
+
+
+def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any = None) -> Any:
+    """Draw the stable and the unstable region of two parameters, the boundary, and the vehicle as it is.
+
+    Parameters
+    ----------
+    result
+        `ucrit.stability_map(vehicle, ...)` over two parameters; the first one goes to the right.
+    vehicle
+        The vehicle as it is, to be marked.
+    figure
+        Figure to draw into; a new one by default.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+
+    Raises
+    ------
+    UcritError
+        If the map does not have two dimensions, both of them parameters.
+    """
+    names = tuple(result.coords)
+    declared = type(result.vehicle).declaration.parameters
+    if len(names) != 2 or any(name not in declared for name in names):
+        raise UcritError(f"a map is drawn over two parameters, this one spans {', '.join(names) or 'none'}")
+    x, y = (np.asarray(result.coords[name], dtype=float) for name in names)
+    stable = np.asarray(result.stable, dtype=bool).T
+    with style.settings():
+        fig = figure or style.new_figure(height=4.0)
+        axes = fig.subplots()
+        for axis, values in (("x", x), ("y", y)):
+            if _ratios(values):
+                getattr(axes, f"set_{axis}scale")("log")
+        shades = [style.UNSTABLE, style.STABLE]
+        axes.contourf(x, y, stable.astype(float), levels=[-0.5, 0.5, 1.5], colors=shades, zorder=0)
+        if stable.any() and not stable.all():
+            axes.contour(x, y, stable.astype(float), levels=[0.5], colors=[style.INK], linewidths=1.4, zorder=3)
+        for flags, word in ((stable, "stable"), (~stable, "unstable")):
+            _name(axes, flags, x, y, word)
+        if vehicle is not None:
+            _design(axes, vehicle, names, (x, y), stable)
+        axes.set_xlim(x.min(), x.max())
+        axes.set_ylim(y.min(), y.max())
+        axes.set_xlabel(_axis(declared[names[0]]))
+        axes.set_ylabel(_axis(declared[names[1]]))
+        style.tidy(axes, grid=False)
+    return fig
+
+
+def _axis(declared: Parameter) -> str:
+    """Label an axis with the parameter's meaning, up to the first comma: the rest is a remark."""
+    return labels.axis_label(declared.meaning.partition(",")[0], declared.name, declared.unit)
+
+
+def _ratios(values: Array) -> bool:
+    """Whether values rise by equal ratios."""
+    if values.size < 3 or values.min() <= 0:
+        return False
+    steps = values[1:] / values[:-1]
+    return bool(np.ptp(steps) < 1e-6 * steps[0] and not np.isclose(steps[0], 1, atol=1e-9))
+
+
+def _name(axes: Any, flags: Array, x: Array, y: Array, word: str) -> None:
+    """Write a region's name where it is widest."""
+    if flags.mean() < 0.02:
+        return
+    row, column = _deepest(flags)
+    axes.text(x[column], y[row], word, ha="center", va="center", fontsize=10.5, color=style.INK, zorder=4)
+
+
+def _deepest(flags: Array) -> tuple[int, int]:
+    """Cell of a region that is farthest from its border and from the map's, on a coarse copy of it."""
+    rows = np.linspace(0, flags.shape[0] - 1, 27).astype(int)
+    columns = np.linspace(0, flags.shape[1] - 1, 27).astype(int)
+    coarse = np.pad(flags[np.ix_(rows, columns)][1:-1, 1:-1], 1)
+    inside, outside = np.argwhere(coarse), np.argwhere(~coarse)
+    if not len(inside):
+        row, column = np.argwhere(flags)[0]
+        return int(row), int(column)
+    wide = np.array([1.0, 1.6])
+    gaps = np.linalg.norm((inside[:, None] - outside[None]) * wide, axis=2).min(axis=1)
+    row, column = inside[int(np.argmax(np.round(gaps, 6)))]
+    return int(rows[row]), int(columns[column])
+
+
+def _design(axes: Any, vehicle: Model, names: tuple[str, ...], grid: tuple[Array, Array], stable: Array) -> None:
+    """Mark the vehicle, its name on the side that lies in the same region."""
+    x, y = grid
+    across, up = (float(vehicle.values[name]) for name in names)
+    if not (x.min() <= across <= x.max() and y.min() <= up <= y.max()):
+        return
+    axes.plot([across], [up], "D", color=style.INK, markersize=6.5, zorder=6, gid="design")
+    row, column = int(np.searchsorted(y, up)), int(np.searchsorted(x, across))
+    reach = max(1, y.size // 12)
+    above = bool(stable[min(row + reach, y.size - 1), column] == stable[min(row, y.size - 1), column])
+    right = column > 0.75 * x.size
+    style.label(axes, "this vehicle", (across, up), xytext=(-9 if right else 9, 7 if above else -13),
+                textcoords="offset points", ha="right" if right else "left")  # fmt: skip

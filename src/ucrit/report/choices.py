@@ -1,0 +1,92 @@
+"""What the page chooses by itself: ranges around the design, and the two parameters of the map."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..core.errors import UcritError, near_match
+
+if TYPE_CHECKING:
+    from ..analyses.analyze import Analysis
+    from ..analyses.locus import Locus
+    from ..core.model import Model
+
+Array = npt.NDArray[np.float64]
+
+WIDE = 8.0
+"""Ranges that span more than this factor are divided by equal ratios."""
+
+
+def map_parameters(analysis: Analysis, asked: Sequence[str] | None) -> tuple[str, str] | None:
+    """Return the map's parameters: those asked for, or the speed and the most effective remedy, or two remedies.
+
+    ``None`` where fewer than two parameters are worth a map.
+    """
+    declared = type(analysis.vehicle).declaration
+    if asked is not None:
+        return _checked(analysis.vehicle, asked)
+    effective = [r.parameter for r in analysis.remedies if r.value is not None]
+    if not effective and declared.speed is not None:
+        effective = _effective_beyond(analysis)
+    candidates = [*([declared.speed] if declared.speed else []), *effective, *declared.parameters]
+    chosen = list(dict.fromkeys(candidates))
+    return (chosen[0], chosen[1]) if len(chosen) > 1 else None
+
+
+def _checked(vehicle: Model, asked: Sequence[str]) -> tuple[str, str]:
+    known = type(vehicle).declaration.parameters
+    if isinstance(asked, str) or len(asked) != 2 or asked[0] == asked[1]:
+        raise UcritError(f"a map needs two different parameters, got {asked!r}")
+    for name in asked:
+        if name not in known:
+            raise UcritError(f"{type(vehicle).model_id()}: there is no parameter '{name}'{near_match(name, known)}")
+    return asked[0], asked[1]
+
+
+def _effective_beyond(analysis: Analysis) -> list[str]:
+    """For a stable vehicle: what would move its first critical speed, as the remedies a little above it tell."""
+    from ..analyses.remedies import remedies
+
+    above = [abs(c.value) for c in analysis.critical or () if abs(c.value) > abs(analysis.speed or 0)]
+    if not above:
+        return []
+    beyond = math.copysign(1.05 * min(above), analysis.speed or 1)
+    found = remedies(analysis.vehicle, upto=beyond, since=0.999 * (analysis.speed or 0))
+    return [r.parameter for r in found if r.value is not None]
+
+
+def map_range(analysis: Analysis, name: str, count: int, path: Locus | None = None) -> Array:
+    """Return values of a parameter around the design, reaching beyond its remedy, inside its bounds.
+
+    A parameter that a root locus is drawn along takes the range of that drawing.
+    """
+    declared = type(analysis.vehicle).declaration.parameters[name]
+    if path is not None and path.parameter == name:
+        return np.asarray(np.linspace(path.values[0], path.values[-1], count))
+    present = float(analysis.vehicle.values[name])
+    remedy = next((r.value for r in analysis.remedies if r.parameter == name and r.value is not None), None)
+    if not present:
+        reach = 2 * remedy if remedy is not None else 1.0
+        lower, upper = sorted((0.0, reach))
+    elif remedy is None or remedy * present <= 0:
+        ends = [0.4 * present, 1.8 * present, *([] if remedy is None else [1.3 * remedy])]
+        lower, upper = min(ends), max(ends)
+    else:
+        ends = [0.5 * present, 1.6 * present, 0.75 * remedy, 1.35 * remedy]
+        lower, upper = min(ends), max(ends)
+    return _inside(declared, lower, upper, count)
+
+
+def _inside(declared: Any, lower: float, upper: float, count: int) -> Array:
+    """Space values between two ends moved inside the parameter's bounds."""
+    margin = 1e-3 * (upper - lower)
+    lower = max(lower, declared.at_least, declared.above + margin)
+    upper = min(upper, declared.at_most, declared.below - margin)
+    if lower > 0 and upper / lower > WIDE:
+        return np.asarray(np.geomspace(lower, upper, count))
+    return np.asarray(np.linspace(lower, upper, count))
