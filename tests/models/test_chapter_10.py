@@ -1,12 +1,15 @@
 """Wheelsets and trucks: creep, hunting speed by formula, Routh and eigenvalues, and the kinematic limit."""
 
 import math
+from fractions import Fraction
 
 import numpy as np
 import pytest
 from agreement import SETS, agree, crossing, varied
 from ucrit import criteria, critical, find_model, load, modes
 from ucrit.checks import check_model
+from ucrit.core.compiled import compiled
+from ucrit.numerics.routh import routh
 from ucrit.parts.creep import contact_velocities, creepage
 
 RAIL = ("wheelset", "wheelset-gravity", "rail-truck", "rail-truck-rigid")
@@ -132,15 +135,20 @@ def test_truck_critical_speed_by_routh_and_eigenvalues():
     assert crossing(load("coach-truck"), "V", found.value) == pytest.approx(found.value, rel=1e-9)
 
 
+def unstable_roots(truck):
+    numbers = [Fraction(value) for value in truck.arguments()]
+    return routh(compiled(type(truck)).exact_coefficients(numbers)).right_half_plane
+
+
 @pytest.mark.parametrize("seed", SEEDS)
-def test_truck_eigenvalue_crossing_satisfies_the_characteristic_equation(seed):
+def test_truck_routh_array_changes_where_the_eigenvalues_cross(seed):
     truck = varied(load("coach-truck"), seed)
-    speeds = np.linspace(5, 400, 400)
-    unstable = modes(truck.with_(V=speeds)).growth > 0
-    first = int(np.argmax(unstable))
+    speeds = np.geomspace(5, 2000, 4000)
+    first = int(np.argmax(modes(truck.with_(V=speeds)).growth > 0))
     assert first > 0
-    (found, *_) = critical(truck, lower=speeds[first - 1], upper=speeds[first])
-    assert crossing(truck, "V", found.value) == pytest.approx(found.value, rel=1e-9)
+    V = crossing(truck, "V", speeds[first])
+    below, above = (unstable_roots(truck.with_(V=V * factor)) for factor in (1 - 1e-9, 1 + 1e-9))
+    assert (below, above) == (0, 2)
 
 
 def test_slow_wheelset_without_springs_follows_the_kinematic_path():

@@ -34,7 +34,9 @@ class LostRoots:
     count
         Number of roots.
     power
-        They behave like this power of the parameter where it grows, of its inverse where it vanishes.
+        They behave like this power of the parameter.
+    fast
+        Whether they go to infinity; to zero otherwise.
     stable
         ``True``: they decay; ``False``: at least one grows; ``None``: that depends on the parameters, or they are
         undamped to leading order.
@@ -45,17 +47,19 @@ class LostRoots:
     parameter: str
     count: int
     power: float
+    fast: bool
     stable: bool | None
     criteria: Criteria
 
     def __str__(self) -> str:
-        where = "infinity" if self.power > 0 else "zero"
+        where = "infinity" if self.fast else "zero"
         number = f"{self.count} root{'s go' if self.count > 1 else ' goes'}"
+        like = self.parameter if self.power == 1 else f"{self.parameter}**{self.power:g}"
         if self.criteria.kind == "neutral" and self.stable is None:
             how = "undamped to leading order"
         else:
             how = {True: "decaying", False: "growing", None: "decaying under conditions of their own"}[self.stable]
-        return f"{number} to {where} with {self.parameter} like its power {abs(self.power):g}, {how}"
+        return f"{number} to {where} like {like}, {how}"
 
 
 @dataclass(frozen=True)
@@ -70,8 +74,8 @@ class LimitResult:
         Limits by parameter, in the order in which they were taken.
     polynomial
         Coefficients of the characteristic polynomial that is left, ascending in s, as text.
-    latex
-        The characteristic equation as LaTeX.
+    text, latex, mathml
+        The polynomial as a whole, highest power first.
     criteria
         Conditions for the stability of what is left.
     lost
@@ -83,7 +87,9 @@ class LimitResult:
     model: str
     to: dict[str, float]
     polynomial: tuple[str, ...]
+    text: str
     latex: str
+    mathml: str
     criteria: Criteria
     lost: tuple[LostRoots, ...]
     order_matters: bool
@@ -106,15 +112,14 @@ class LimitResult:
 
     def __str__(self) -> str:
         taken = ", ".join(f"{name} -> {'infinity' if value else '0'}" for name, value in self.to.items())
-        terms = [f"({c})" + ("" if k == 0 else " s" if k == 1 else f" s^{k}") for k, c in enumerate(self.polynomial)]
-        left = " + ".join(t for t, c in zip(terms[::-1], self.polynomial[::-1], strict=True) if c != "0")
-        lines = [f"{self.model}, {taken}:", f"    {left} = 0", *(f"    {lost}" for lost in self.lost)]
+        left = f"{self.text} = 0" if self.criteria.order else "no root stays finite"
+        lines = [f"{self.model}, {taken}:", f"    {left}", *(f"    {lost}" for lost in self.lost)]
         if self.order_matters:
             lines.append("    another order of these limits gives another result")
-        return "\n".join([*lines, *str(self.criteria).splitlines()])
+        return "\n".join([*lines, *(str(self.criteria).splitlines() if self.criteria.order else [])])
 
     def _repr_latex_(self) -> str:
-        return rf"$\displaystyle {self.latex}$"
+        return rf"$\displaystyle {self.latex} = 0$"
 
 
 def limit(model: type[Model] | Model, *, direction: int | None = None, **to: float) -> LimitResult:
@@ -159,8 +164,8 @@ def limit(model: type[Model] | Model, *, direction: int | None = None, **to: flo
     facts = cached(cls, piece, lambda: _derive(cls, sense, to))
     lost = tuple(LostRoots(**{**entry, "criteria": _criteria(cls, entry["criteria"])}) for entry in facts["lost"])
     return LimitResult(
-        cls.model_id(), dict(to), tuple(facts["polynomial"]), facts["latex"], _criteria(cls, facts["criteria"]),
-        lost, facts["order_matters"], facts["source"], tuple(facts["parameters"]),
+        cls.model_id(), dict(to), tuple(facts["polynomial"]), facts["text"], facts["latex"], facts["mathml"],
+        _criteria(cls, facts["criteria"]), lost, facts["order_matters"], facts["source"], tuple(facts["parameters"]),
     )
 
 
@@ -178,33 +183,30 @@ def _criteria(cls: type[Model], facts: dict[str, Any]) -> Criteria:
 
 
 def _derive(cls: type[Model], direction: int, to: dict[str, float]) -> dict[str, Any]:
-    import sympy as sp
-
     from ..core import typeset
     from ..core.codegen import generate
     from ..core.derive import symbolic
-    from ..core.factor import readable
     from .conditions import conditions
+    from .polynomials import in_s, product
 
     system = symbolic(cls, direction)
     parameters = list(system.traced.parameters.values())
     polynomial, escapes = limit_polynomial(system, to)
     orders = [limit_polynomial(system, dict(order))[0] for order in permutations(to.items())] if len(to) < 4 else []
-    left = [readable(a).xreplace(dict(polynomial.functions)) for a in polynomial.coefficients]
-    s = sp.Symbol("s")
-    terms = [sp.Mul(a, s**k, evaluate=False) if k else a for k, a in enumerate(left) if a]
+    left = [product(a, polynomial.functions) for a in polynomial.coefficients]
     lost = []
     for escape in escapes:
         found = conditions(escape.polynomial, parameters, cls.model_id())
         neutral = found["kind"] == "neutral" and found["settled"] is not False
         stable = None if neutral else found["settled"]
         lost.append({
-            "parameter": escape.parameter, "count": escape.count, "power": float(escape.power),
+            "parameter": escape.parameter, "count": escape.count,
+            "power": float(escape.power) * (1 if to[escape.parameter] else -1), "fast": escape.power > 0,
             "stable": stable, "criteria": found,
         })
     return {
         "polynomial": [typeset.text(a) for a in left],
-        "latex": " + ".join(typeset.latex(t) for t in reversed(terms)) + " = 0",
+        **in_s(left),
         "criteria": conditions(polynomial, parameters, cls.model_id()),
         "lost": lost,
         "order_matters": any(other.coefficients != polynomial.coefficients for other in orders),

@@ -84,11 +84,12 @@ def transfer(subject: Subject) -> str:
             numeric(entry.formulas(entry.content[key], system.traced.parameters), symbols)
             for key in ("numerator", "denominator")
         )
+        derived = response(system, name_in, name_out)
         for point in subject.points(entry.where, entry.direction):
             with mpmath.workdps(DIGITS):
                 top, bottom = above(point), below(point)
-                for s in frequencies(bottom, len(top) + len(bottom)):
-                    derived = response(system, name_in, name_out, point, s)
-                    if not close(derived * value_at(bottom, s), value_at(top, s)):
+                nodes = frequencies(bottom, len(top) + len(bottom))
+                for s, value in zip(nodes, derived(point, nodes), strict=True):
+                    if not close(value * value_at(bottom, s), value_at(top, s)):
                         raise FailedCheckError(f"{entry.where}: {name_out}/{name_in} is another transfer function")
     return f"{len(entries)} published transfer functions agree"

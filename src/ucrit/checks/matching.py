@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import mpmath
@@ -55,18 +55,22 @@ def _keys(M: Any) -> list[tuple[int, int]]:
     return [(i, j) for i in range(M.rows) for j in range(M.cols)]
 
 
-def response(system: LinearSystem, name_in: str, name_out: str, point: Point, s: Any) -> Any:
-    """Return the transfer function from an input to an output or a variable at the frequency ``s``."""
-    traced, declared = system.traced, system.traced.model.declaration
-    symbols = list(traced.parameters.values())
-    column = list(declared.inputs).index(name_in)
-    P = _at([matrix(M, symbols)(point) for M in system.P], s)
-    forcing = matrix(system.Q[:, column], symbols)(point)
-    q = mpmath.lu_solve(P, forcing)
+def response(system: LinearSystem, name_in: str, name_out: str) -> Callable[[Point, Sequence[Any]], list[Any]]:
+    """Return a function giving the transfer function from an input to an output or variable at frequencies ``s``."""
+    declared = system.traced.model.declaration
+    column, n = list(declared.inputs).index(name_in), len(system.traced.q)
     if name_out in declared.variables:
-        return q[list(declared.variables).index(name_out)]
-    row = list(declared.outputs).index(name_out)
-    C = _at([matrix(M[row, :], symbols)(point) for M in system.C], s)
-    return (C * q)[0] + matrix(system.D[row, column : column + 1], symbols)(point)[0]
+        pick = sp.zeros(1, n)
+        pick[list(declared.variables).index(name_out)] = 1
+        output, through = [pick], sp.zeros(1, 1)
+    else:
+        row = list(declared.outputs).index(name_out)
+        output, through = [M[row, :] for M in system.C], system.D[row, column : column + 1]
+    blocks = ([*system.P], [system.Q[:, column]], output, [through])
+    evaluate = [[matrix(M, list(system.traced.parameters.values())) for M in block] for block in blocks]
 
+    def at(point: Point, frequencies: Sequence[Any]) -> list[Any]:
+        P, Q, C, D = ([M(point) for M in block] for block in evaluate)
+        return [(_at(C, s) * mpmath.lu_solve(_at(P, s), Q[0]) + D[0])[0] for s in frequencies]
 
+    return at

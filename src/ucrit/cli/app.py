@@ -87,10 +87,10 @@ def cli(ctx: click.Context) -> None:
 
     \b
     Start with:
-      ucrit list                                  models and vehicles that are shipped
-      ucrit analyze caravan --upto "130 km/h"     judge one of them
-      ucrit new trailer > mine.toml               a vehicle file to fill in
-      ucrit analyze mine.toml                     judge your own
+      ucrit list                                what there is
+      ucrit analyze caravan --upto "130 km/h"   judge one of the vehicles
+      ucrit new trailer > mine.toml             a vehicle file to fill in
+      ucrit analyze mine.toml                   judge your own
 
     \b
     Units:  a number is in SI units (m, kg, s, N, rad); anything else carries its

@@ -87,7 +87,7 @@ def _sentence(error: Exception) -> str | None:
 
 
 def _in_user_file(trace: TracebackType | None) -> str | None:
-    """Return file and line where a user's model file raised; its code is run without being an imported module."""
+    """Return file and line where a user's model file raised; it is run, but is no imported module."""
     found = None
     while trace is not None:
         code, own = trace.tb_frame.f_code, trace.tb_frame.f_globals

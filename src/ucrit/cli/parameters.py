@@ -51,10 +51,12 @@ def complete_parameters(ctx: click.Context, param: click.Parameter, incomplete: 
     from ..catalogue import load
     from ..core.errors import UcritError
 
-    if "=" in incomplete or not ctx.params.get("vehicle"):
+    words = [ctx.params.get("vehicle"), *ctx.args]  # an option still without value leaves the words unread
+    name = next((word for word in words if word and not word.startswith("-")), None)
+    if "=" in incomplete or name is None:
         return []
     try:
-        vehicle = load(ctx.params["vehicle"])
+        vehicle = load(name)
     except UcritError:
         return []
     declared = type(vehicle).declaration.parameters.values()

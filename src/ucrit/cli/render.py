@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from ..analyses.remedies import Remedy, remedies
+import numpy as np
+
+from ..analyses.remedies import SPEEDS, Remedy
 from ..analyses.wording import speed_text
-from ..core.errors import UcritError
+from ..core.compiled import deciding_coefficients
+from ..numerics.hurwitz import stable
 from .terminal import Page, vehicle_head
 from .wrap import DIGITS, decimal_text, number, rounded, shorten
 
@@ -20,6 +23,8 @@ if TYPE_CHECKING:
 
 CLOSED_FORM_LINES = 6
 CRITERION_LINES = 16
+LEAST_SHARE = 0.05
+TIE = "~"
 
 
 def show_analysis(console: Console, found: Analysis, report: str | None = None) -> None:
@@ -97,7 +102,8 @@ def _modes(page: Page, found: Analysis) -> None:
         name = row[0] if len(row[0]) <= name_width else ""
         page.line((f"  {name:<{name_width}}  " + "  ".join(cells), style))
         if number_:
-            page.paragraph(_shares(found.modes[number_ - 1]), "dim", indent=6)
+            for line in page.wrapped(_shares(found.modes[number_ - 1]), 6):
+                page.line((line.replace(TIE, " "), "dim"))
 
 
 def _mode_cells(mode: Mode, plus_minus: str) -> list[str]:
@@ -113,9 +119,9 @@ def _mode_cells(mode: Mode, plus_minus: str) -> list[str]:
 
 
 def _shares(mode: Mode) -> str:
-    """Return which states take part; those below two percent are left out."""
+    """Return which states take part, with ties where a line must not break."""
     shares = sorted(mode.participation.items(), key=lambda item: -item[1])
-    return ", ".join(f"{name} {share:.0%}" for name, share in shares if share >= 0.02)
+    return ", ".join(f"{name}{TIE}{share:.0%}" for name, share in shares if share >= LEAST_SHARE)
 
 
 def _criteria(page: Page, found: Analysis) -> None:
@@ -169,7 +175,8 @@ def _remedy_cells(remedy: Remedy, found: Analysis) -> list[str]:
 
 
 def _percent(share: float) -> str:
-    return f"{'+' if share > 0 else ''}{number(100 * share, 2)} %"
+    digits = 2 if abs(share) < 0.95 or share > 1 else 4  # -99.8 % is not -100 %
+    return f"{'+' if share > 0 else ''}{number(100 * share, digits)} %"
 
 
 def safe_value(remedy: Remedy, found: Analysis) -> str:
@@ -185,7 +192,9 @@ def safe_value(remedy: Remedy, found: Analysis) -> str:
 
 
 def _helps(found: Analysis, parameter: str, value: float) -> bool:
-    try:
-        return not remedies(found.vehicle.with_(**{parameter: value}))
-    except UcritError:
-        return False
+    """Tell whether a value, rounded away from the boundary, is still within the stable range of it."""
+    changes: dict[str, Any] = {parameter: value}
+    name = type(found.vehicle).declaration.speed
+    if name is not None and found.speed is not None:
+        changes[name] = found.speed * np.linspace(0, 1, SPEEDS + 1)[1:]
+    return bool(np.all(stable(deciding_coefficients(found.vehicle.with_(**changes)))))

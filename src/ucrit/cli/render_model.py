@@ -56,8 +56,9 @@ def show_model(console: Console, found: ModelDescription) -> None:
     else:
         page.paragraph(found.model, "bold")
         page.paragraph(found.title)
-    page.line()
-    page.paragraph(found.notes)
+    if found.notes:
+        page.line()
+        page.paragraph(found.notes)
     _parameters(page, found)
     for head, group in (("Variables", found.variables), ("Inputs", found.inputs), ("Outputs", found.outputs)):
         if group:

@@ -144,6 +144,8 @@ def square_free(p: Sequence[Any]) -> list[tuple[list[int], int]]:
     f = primitive(p)
     if not f:
         raise ValueError("the polynomial is 0: it needs at least one non-zero coefficient")
+    zeros = next(k for k, x in enumerate(f) if x)  # powers of x alone are common, and cost most below
+    f = f[zeros:]
     common = gcd(f, derivative(f))
     rest, slope = _exact_quotient(f, common), _exact_quotient(derivative(f), common)
     factors: list[tuple[list[int], int]] = []
@@ -155,7 +157,10 @@ def square_free(p: Sequence[Any]) -> list[tuple[list[int], int]]:
             factors.append((factor, multiplicity))
         rest, slope = _exact_quotient(rest, factor), _exact_quotient(slope, factor)
         multiplicity += 1
-    return factors
+    if zeros:
+        same = next((factor for factor, m in factors if m == zeros), [1])
+        factors = [(factor, m) for factor, m in factors if m != zeros] + [(multiply(same, [0, 1]), zeros)]
+    return sorted(factors, key=lambda pair: pair[1])
 
 
 def interpolate(nodes: Sequence[Any], values: Sequence[Any]) -> list[Fraction]:

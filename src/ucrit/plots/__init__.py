@@ -1,6 +1,7 @@
 """One drawing per result. Only this package imports matplotlib, and only when something is drawn.
 
-Every function returns a `matplotlib.figure.Figure` that belongs to no window: notebooks show it, ``savefig`` writes it.
+Every function returns a `matplotlib.figure.Figure` that belongs to no window: notebooks show it, ``savefig``
+writes it.
 """
 
 from __future__ import annotations

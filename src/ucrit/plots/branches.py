@@ -25,7 +25,7 @@ ON_AXIS = 1e-9
 
 @dataclass(frozen=True)
 class Branch:
-    """The upper half of one branch: its number among those drawn, its name, its values (nan where in the lower half)."""
+    """The upper half of one branch: its number among those drawn, its name, its values."""
 
     index: int
     name: str
@@ -59,7 +59,7 @@ def at(branch: Branch, where: Array, value: float) -> complex:
 
 
 def view(branches: Sequence[Branch], where: Array, marked: Sequence[float]) -> tuple[float, float, float]:
-    """Return left, right and top of a view that holds the roots at the marked values and at the range's end."""
+    """Return left, right and top of a view with the roots at the marked values and at the range's end."""
     farthest = where[np.argmax(np.abs(where))]
     points = [at(branch, where, value) for value in (*marked, farthest) for branch in branches]
     roots = np.array([p for p in points if not np.isnan(p)])

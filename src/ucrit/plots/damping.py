@@ -22,9 +22,9 @@ Array = npt.NDArray[Any]
 def plot_damping(locus: Locus, *, critical: CriticalValues | None = None, figure: Any = None) -> Any:
     """Draw how damping and frequency of the modes depend on the parameter.
 
-    The upper half shows the damping ratio, or the growth rate (real part) where a motion that does not oscillate is
-    or becomes unstable: its damping ratio is 1 or -1 and tells nothing. Below zero, or above zero for the growth rate,
-    lies instability. Stable ranges are shaded where critical values are given.
+    The upper half shows the damping ratio, negative where a motion grows; or, where a motion that does not
+    oscillate becomes unstable, the growth rate (real part): such a motion's damping ratio, 1 or -1, tells
+    nothing. Stable ranges are shaded where critical values are given.
 
     Parameters
     ----------
@@ -74,8 +74,14 @@ def _rates(axes: Any, branches: Sequence[Branch], where: Array, growth: bool) ->
         size = np.abs(branch.values)
         ratio = np.divide(-branch.values.real, size, out=np.full(size.shape, np.nan), where=size > 0)
         y = branch.values.real if growth else ratio
-        axes.plot(where, y, color=style.colour(branch.index), linestyle=style.dash(branch.index), linewidth=1.9,
-                  gid=f"rate-{branch.index}")  # fmt: skip
+        axes.plot(
+            where,
+            y,
+            color=style.colour(branch.index),
+            linestyle=style.dash(branch.index),
+            linewidth=1.9,
+            gid=f"rate-{branch.index}",
+        )
         seen = y[later][~np.isnan(y[later])]
         if seen.size:
             tops.append(float(seen.max()))
@@ -90,15 +96,24 @@ def _rates(axes: Any, branches: Sequence[Branch], where: Array, growth: bool) ->
         axes.set_ylim(bottom - margin, top + margin)
     else:
         axes.set_ylabel("damping ratio [1]")
-        axes.set_ylim(max(-1.08, min([-0.15, *(b - 0.1 for b in bottoms)])), 1.08 if max(tops, default=1) > 0.6 else max(tops) + 0.12)
+        axes.set_ylim(
+            max(-1.08, min([-0.15, *(b - 0.1 for b in bottoms)])),
+            1.08 if max(tops, default=1) > 0.6 else max(tops) + 0.12,
+        )
 
 
 def _frequencies(axes: Any, branches: Sequence[Branch], where: Array) -> None:
     for branch in branches:
         hertz = branch.values.imag / (2 * math.pi)
         apart = np.where((np.nan_to_num(hertz) > 0) | _beside(np.nan_to_num(hertz) > 0), hertz, np.nan)
-        axes.plot(where, apart, color=style.colour(branch.index), linestyle=style.dash(branch.index), linewidth=1.9,
-                  gid=f"frequency-{branch.index}")  # fmt: skip
+        axes.plot(
+            where,
+            apart,
+            color=style.colour(branch.index),
+            linestyle=style.dash(branch.index),
+            linewidth=1.9,
+            gid=f"frequency-{branch.index}",
+        )
     later = np.abs(where) >= 0.1 * np.abs(where).max()
     highest = [float(np.nanmax(np.nan_to_num(b.values.imag[later]))) / (2 * math.pi) for b in branches]
     axes.set_ylim(0, 1.12 * max(highest) or 1)
@@ -134,9 +149,17 @@ def _lines(axes: Any, locus: Locus, critical: CriticalValues | None, where: Arra
         level = level + 1 if value - last < 0.2 * span else 0
         last = value
         axes[0].annotate(
-            text, (value, 1), xycoords=("data", "axes fraction"), xytext=(0, 3 + 22 * (level % 3)), fontsize=8,
-            textcoords="offset points", ha="center", va="bottom", color=style.INK, annotation_clip=False,
-        )  # fmt: skip
+            text,
+            (value, 1),
+            xycoords=("data", "axes fraction"),
+            xytext=(0, 3 + 22 * (level % 3)),
+            fontsize=8,
+            textcoords="offset points",
+            ha="center",
+            va="bottom",
+            color=style.INK,
+            annotation_clip=False,
+        )
 
 
 def _legend(fig: Any, branches: Sequence[Branch]) -> None:
@@ -145,9 +168,24 @@ def _legend(fig: Any, branches: Sequence[Branch]) -> None:
 
     named = {b.name: b for b in branches}
     entries: list[Any] = [
-        Line2D([], [], color=style.colour(b.index), linestyle=style.dash(b.index), linewidth=1.9, label=labels.plain(b.name))
+        Line2D(
+            [],
+            [],
+            color=style.colour(b.index),
+            linestyle=style.dash(b.index),
+            linewidth=1.9,
+            label=labels.plain(b.name),
+        )
         for b in sorted(named.values(), key=lambda b: b.index)
     ]
     entries.append(Patch(facecolor=style.STABLE, label="stable"))
-    fig.legend(handles=entries, loc="outside lower center", ncols=2, frameon=False, fontsize=8.5, handlelength=2.6,
-               columnspacing=1.6, labelcolor=style.INK)  # fmt: skip
+    fig.legend(
+        handles=entries,
+        loc="outside lower center",
+        ncols=2,
+        frameon=False,
+        fontsize=8.5,
+        handlelength=2.6,
+        columnspacing=1.6,
+        labelcolor=style.INK,
+    )

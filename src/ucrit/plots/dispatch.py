@@ -17,8 +17,8 @@ def plot(result: Any, *, figure: Any = None) -> Any:
     Parameters
     ----------
     result
-        What `ucrit.analyze`, `ucrit.locus`, `ucrit.modes`, `ucrit.remedies` or `ucrit.stability_map` returned.
-        Of an analysis the root locus and the damping against speed are drawn, of a vehicle without speed its modes.
+        What `ucrit.analyze`, `locus`, `modes`, `remedies` or `stability_map` returned. Of an analysis the root
+        locus and the damping against speed are drawn, of a vehicle without speed its modes.
     figure
         Figure to draw into; a new one by default.
 
@@ -54,8 +54,8 @@ def plot(result: Any, *, figure: Any = None) -> Any:
     if isinstance(result, tuple) and result and all(isinstance(item, Remedy) for item in result):
         return plot_remedies(result, figure=figure)
     raise UcritError(
-        f"there is no drawing for {type(result).__name__}; drawn are the results of analyze, locus, modes, remedies and "
-        "stability_map"
+        f"there is no drawing for {type(result).__name__}; "
+        "drawn are the results of analyze, locus, modes, remedies and stability_map"
     )
 
 

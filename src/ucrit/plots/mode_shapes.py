@@ -22,8 +22,8 @@ def plot_mode_shapes(modes: Sequence[Mode], vehicle: Model, *, figure: Any = Non
     """Draw one dial for each variable in each mode.
 
     The hand's length is the amplitude, as a share of the largest variable of the same unit in that mode; its
-    direction is the phase, zero to the right and counter-clockwise ahead in time. Numbers are for one unit of the
-    mode's largest variable. In a mode that does not oscillate, all hands lie on one line.
+    direction is the phase, zero to the right and counter-clockwise ahead in time. Numbers are for one unit of
+    the mode's largest variable. In a mode that does not oscillate, all hands lie on one line.
 
     Parameters
     ----------
@@ -46,7 +46,15 @@ def plot_mode_shapes(modes: Sequence[Mode], vehicle: Model, *, figure: Any = Non
         for row, mode in enumerate(listed):
             _row(axes, row, mode, names, vehicle)
         for column, name in enumerate(names):
-            axes.text(column, -0.62, labels.math_symbol(name), ha="center", va="center", fontsize=11, color=style.INK)
+            axes.text(
+                column,
+                -0.62,
+                labels.math_symbol(name),
+                ha="center",
+                va="center",
+                fontsize=11,
+                color=style.INK,
+            )
         axes.set_aspect("equal")
         axes.set_xlim(-1.85, max(len(names) - 0.4, 2.6))
         axes.set_ylim(len(listed) - 0.35, -0.8)
@@ -74,7 +82,9 @@ def _time(mode: Mode) -> str:
     if mode.eigenvalue == 0:
         return "stays where it is"
     time, word = (
-        (mode.time_to_half, "halves") if math.isfinite(mode.time_to_half) else (mode.time_to_double, "doubles")
+        (mode.time_to_half, "halves")
+        if math.isfinite(mode.time_to_half)
+        else (mode.time_to_double, "doubles")
     )
     return f"{word} in {labels.number(time, 3)} s"
 
@@ -92,10 +102,27 @@ def _dial(axes: Any, centre: tuple[float, float], value: complex, largest: float
         share, phase = abs(value) / largest, cmath.phase(value)
         tip = (x + RADIUS * share * math.cos(phase), y - RADIUS * share * math.sin(phase))
         axes.annotate(
-            "", tip, centre, arrowprops={"arrowstyle": "-|>", "color": style.BRANCHES[0], "linewidth": 1.6,
-            "shrinkA": 0, "shrinkB": 0, "mutation_scale": 9},
-        )  # fmt: skip
-    axes.text(x, y + RADIUS + 0.05, _numbers(value, unit, still), ha="center", va="top", fontsize=7.6, color=style.INK)
+            "",
+            tip,
+            centre,
+            arrowprops={
+                "arrowstyle": "-|>",
+                "color": style.BRANCHES[0],
+                "linewidth": 1.6,
+                "shrinkA": 0,
+                "shrinkB": 0,
+                "mutation_scale": 9,
+            },
+        )
+    axes.text(
+        x,
+        y + RADIUS + 0.05,
+        _numbers(value, unit, still),
+        ha="center",
+        va="top",
+        fontsize=7.6,
+        color=style.INK,
+    )
 
 
 def _numbers(value: complex, unit: str, still: bool) -> str:

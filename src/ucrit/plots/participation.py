@@ -36,11 +36,24 @@ def plot_participation(modes: Iterable[Mode], *, figure: Any = None) -> Any:
             for column, state in enumerate(states):
                 share = mode.participation[state]
                 cell = Rectangle(
-                    (column - 0.48, row - 0.45), 0.96, 0.9, color=style.BRANCHES[0], alpha=0.8 * share, linewidth=0
+                    (column - 0.48, row - 0.45),
+                    0.96,
+                    0.9,
+                    color=style.BRANCHES[0],
+                    alpha=0.8 * share,
+                    linewidth=0,
                 )
                 axes.add_patch(cell)
                 if share >= 0.005:
-                    axes.text(column, row, f"{100 * share:.0f} %", ha="center", va="center", fontsize=8.5, color=style.INK)
+                    axes.text(
+                        column,
+                        row,
+                        f"{100 * share:.0f} %",
+                        ha="center",
+                        va="center",
+                        fontsize=8.5,
+                        color=style.INK,
+                    )
         axes.set_xlim(-0.5, len(states) - 0.5)
         axes.set_ylim(len(listed) - 0.5, -0.5)
         axes.set_xticks(range(len(states)), [labels.math_symbol(state) for state in states], fontsize=10)

@@ -39,7 +39,16 @@ class Labels:
         low, span = np.array([x[0], y[0]]), np.array([x[1] - x[0], y[1] - y[0]])
         return np.asarray((np.asarray(data, dtype=float) - low) / span * self._size)
 
-    def add(self, text: str, at: tuple[float, float], *, font: float, gap: float = 4, must: bool = True, **options: Any) -> bool:
+    def add(
+        self,
+        text: str,
+        at: tuple[float, float],
+        *,
+        font: float,
+        gap: float = 4,
+        must: bool = True,
+        **options: Any,
+    ) -> bool:
         """Write a label; without ``must`` leave it away where there is no free place."""
         lines = text.split("\n")
         extent = np.array([0.62 * font * max(map(len, lines)), 1.2 * font * len(lines)])
@@ -54,9 +63,16 @@ class Labels:
         self._boxes.append(self._box(anchor, extent, corner, gap))
         sideways, upward = corner
         style.label(
-            self._axes, text, at, fontsize=font, textcoords="offset points", xytext=(sideways * gap, upward * gap),
-            ha={1: "left", 0: "center", -1: "right"}[sideways], va="bottom" if upward > 0 else "top", **options,
-        )  # fmt: skip
+            self._axes,
+            text,
+            at,
+            fontsize=font,
+            textcoords="offset points",
+            xytext=(sideways * gap, upward * gap),
+            ha={1: "left", 0: "center", -1: "right"}[sideways],
+            va="bottom" if upward > 0 else "top",
+            **options,
+        )
         return True
 
     def _box(self, anchor: Array, extent: Array, corner: tuple[int, int], gap: float) -> Array:
@@ -67,6 +83,8 @@ class Labels:
         """Count line points under the box; other labels and the edge weigh more."""
         low, high = box
         under = np.count_nonzero(((self._points > low - 1) & (self._points < high + 1)).all(axis=1))
-        overlaps = sum(bool(np.all(low < other[1] + 3) and np.all(other[0] - 3 < high)) for other in self._boxes)
+        overlaps = sum(
+            bool(np.all(low < other[1] + 3) and np.all(other[0] - 3 < high)) for other in self._boxes
+        )
         outside = bool(np.any(low < 0) or np.any(high > self._size))
         return float(under + 200 * overlaps + 400 * outside)

@@ -22,8 +22,8 @@ Array = npt.NDArray[Any]
 def plot_locus(locus: Locus, *, critical: CriticalValues | None = None, figure: Any = None) -> Any:
     """Draw the upper half of the complex plane with the path of every eigenvalue.
 
-    Dots along the paths are round values of the parameter, arrows show where its size grows, diamonds are the vehicle as it
-    is, rings the critical values. The unstable half plane is shaded.
+    Dots along the paths are round values of the parameter, arrows show where its size grows, diamonds are the
+    vehicle as it is, rings the critical values. The unstable half plane is shaded.
 
     Parameters
     ----------
@@ -56,8 +56,16 @@ def plot_locus(locus: Locus, *, critical: CriticalValues | None = None, figure: 
         points = [at(branch, where, design) for branch in branches]
         inside = [p for p in points if not np.isnan(p)]
         if inside:
-            axes.plot([p.real for p in inside], [p.imag for p in inside], "D", color=style.INK, markersize=5.5,
-                      zorder=7, gid="design", linestyle="none")  # fmt: skip
+            axes.plot(
+                [p.real for p in inside],
+                [p.imag for p in inside],
+                "D",
+                color=style.INK,
+                markersize=5.5,
+                zorder=7,
+                gid="design",
+                linestyle="none",
+            )
         _dots(axes, branches, where, box, room)
         name, unit = labels.math_symbol(locus.parameter), declared.unit
         shown = f"{name} = {labels.quantity(design, unit)}"
@@ -81,7 +89,16 @@ def _frame(axes: Any, box: tuple[float, float, float]) -> None:
     axes.axvspan(0, right, color=style.UNSTABLE, linewidth=0, zorder=0)
     axes.axvline(0, color=style.MUTED, linewidth=1.0, zorder=1)
     axes.axhline(0, color=style.MUTED, linewidth=0.8, zorder=1)
-    axes.text(0.995, 0.985, "unstable", transform=axes.transAxes, ha="right", va="top", fontsize=8.5, color=style.MUTED)
+    axes.text(
+        0.995,
+        0.985,
+        "unstable",
+        transform=axes.transAxes,
+        ha="right",
+        va="top",
+        fontsize=8.5,
+        color=style.MUTED,
+    )
     axes.set_xlabel("real part [1/s]")
     axes.set_ylabel("imaginary part [rad/s]")
     style.tidy(axes)
@@ -89,8 +106,15 @@ def _frame(axes: Any, box: tuple[float, float, float]) -> None:
 
 def _path(axes: Any, branch: Branch, where: Array, box: tuple[float, float, float]) -> None:
     colour = style.colour(branch.index)
-    axes.plot(branch.values.real, branch.values.imag, color=colour, linestyle=style.dash(branch.index),
-              linewidth=1.9, zorder=4, gid=f"branch-{branch.index}")  # fmt: skip
+    axes.plot(
+        branch.values.real,
+        branch.values.imag,
+        color=colour,
+        linestyle=style.dash(branch.index),
+        linewidth=1.9,
+        zorder=4,
+        gid=f"branch-{branch.index}",
+    )
     left, right, top = box
     scaled = branch.values.real / (right - left) + 1j * branch.values.imag / top
     visible = (branch.values.real > left) & (branch.values.real < right) & (branch.values.imag < top)
@@ -103,9 +127,12 @@ def _path(axes: Any, branch: Branch, where: Array, box: tuple[float, float, floa
     if abs(where[i + 1]) < abs(where[i]):
         tail, tip = tip, tail
     axes.annotate(
-        "", (tip.real, tip.imag), (tail.real, tail.imag), zorder=5,
+        "",
+        (tip.real, tip.imag),
+        (tail.real, tail.imag),
+        zorder=5,
         arrowprops={"arrowstyle": "-|>", "color": colour, "mutation_scale": 13, "shrinkA": 0, "shrinkB": 0},
-    )  # fmt: skip
+    )
 
 
 def _room(fig: Any) -> tuple[float, float]:
@@ -124,16 +151,24 @@ def _obstacles(branches: Sequence[Branch], box: tuple[float, float, float]) -> A
         spread = np.abs(np.diff(values.real)) / (right - left) + np.abs(np.diff(values.imag)) / top
         length = np.concatenate([[0.0], np.cumsum(spread)])
         fine = np.linspace(0, length[-1], 1 + int(min(100 * length[-1], 2000)))
-        found.append(np.column_stack([np.interp(fine, length, values.real), np.interp(fine, length, values.imag)]))
+        found.append(
+            np.column_stack([np.interp(fine, length, values.real), np.interp(fine, length, values.imag)])
+        )
     return np.concatenate(found)
 
 
-def _dots(axes: Any, branches: Sequence[Branch], where: Array, box: tuple[float, float, float], room: Labels) -> None:
+def _dots(
+    axes: Any, branches: Sequence[Branch], where: Array, box: tuple[float, float, float], room: Labels
+) -> None:
     """Mark round values of the parameter on all branches, and number them where there is room."""
     from matplotlib.ticker import MaxNLocator
 
     left, right, top = box
-    ticks = [t for t in MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(where[0], where[-1]) if _within(where, t) and t]
+    ticks = [
+        t
+        for t in MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(where[0], where[-1])
+        if _within(where, t) and t
+    ]
     for branch in branches:
         for tick in ticks:
             p = at(branch, where, tick)
@@ -150,8 +185,17 @@ def _crossing(axes: Any, branches: Sequence[Branch], where: Array, c: Critical, 
     if not near:
         return
     height = 2 * np.pi * c.frequency_hz if c.kind == "flutter" else min(near, key=lambda p: abs(p.real)).imag
-    axes.plot([0], [height], "o", markersize=9, markerfacecolor="none", markeredgecolor=style.INK, markeredgewidth=1.5,
-              zorder=7, gid="critical")  # fmt: skip
+    axes.plot(
+        [0],
+        [height],
+        "o",
+        markersize=9,
+        markerfacecolor="none",
+        markeredgecolor=style.INK,
+        markeredgewidth=1.5,
+        zorder=7,
+        gid="critical",
+    )
     room.add(f"{labels.quantity(c.value, c.unit)}\n{c.kind}", (0, height), font=8, gap=6)
 
 
@@ -160,18 +204,41 @@ def _legend(fig: Any, axes: Any, branches: Sequence[Branch], design: str, dots: 
 
     named = {b.name: b for b in reversed(branches)}
     entries = [
-        Line2D([], [], color=style.colour(b.index), linestyle=style.dash(b.index), linewidth=1.9, label=labels.plain(b.name))
+        Line2D(
+            [],
+            [],
+            color=style.colour(b.index),
+            linestyle=style.dash(b.index),
+            linewidth=1.9,
+            label=labels.plain(b.name),
+        )
         for b in sorted(named.values(), key=lambda b: b.index)
     ]
     entries.append(Line2D([], [], color=style.INK, marker="D", markersize=5, linestyle="none", label=design))
     if crossings:
         entries.append(
-            Line2D([], [], color=style.INK, marker="o", markerfacecolor="none", markersize=7, linestyle="none",
-                   label="critical")
-        )  # fmt: skip
-    entries.append(Line2D([], [], color=style.MUTED, marker="o", markersize=3.6, linestyle="none", label=dots))
+            Line2D(
+                [],
+                [],
+                color=style.INK,
+                marker="o",
+                markerfacecolor="none",
+                markersize=7,
+                linestyle="none",
+                label="critical",
+            )
+        )
+    entries.append(
+        Line2D([], [], color=style.MUTED, marker="o", markersize=3.6, linestyle="none", label=dots)
+    )
     legend = fig.legend(
-        handles=entries, loc="outside lower center", ncols=2, frameon=False, fontsize=8.5, handlelength=2.6,
-        columnspacing=1.6, labelcolor=style.INK,
-    )  # fmt: skip
+        handles=entries,
+        loc="outside lower center",
+        ncols=2,
+        frameon=False,
+        fontsize=8.5,
+        handlelength=2.6,
+        columnspacing=1.6,
+        labelcolor=style.INK,
+    )
     legend.set_in_layout(True)

@@ -54,7 +54,9 @@ def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any 
         shades = [style.UNSTABLE, style.STABLE]
         axes.contourf(x, y, stable.astype(float), levels=[-0.5, 0.5, 1.5], colors=shades, zorder=0)
         if stable.any() and not stable.all():
-            axes.contour(x, y, stable.astype(float), levels=[0.5], colors=[style.INK], linewidths=1.4, zorder=3)
+            axes.contour(
+                x, y, stable.astype(float), levels=[0.5], colors=[style.INK], linewidths=1.4, zorder=3
+            )
         for flags, word in ((stable, "stable"), (~stable, "unstable")):
             _name(axes, flags, x, y, word)
         if vehicle is not None:
@@ -103,7 +105,9 @@ def _deepest(flags: Array) -> tuple[int, int]:
     return int(rows[row]), int(columns[column])
 
 
-def _design(axes: Any, vehicle: Model, names: tuple[str, ...], grid: tuple[Array, Array], stable: Array) -> None:
+def _design(
+    axes: Any, vehicle: Model, names: tuple[str, ...], grid: tuple[Array, Array], stable: Array
+) -> None:
     """Mark the vehicle, its name on the side that lies in the same region."""
     x, y = grid
     across, up = (float(vehicle.values[name]) for name in names)
@@ -114,5 +118,11 @@ def _design(axes: Any, vehicle: Model, names: tuple[str, ...], grid: tuple[Array
     reach = max(1, y.size // 12)
     above = bool(stable[min(row + reach, y.size - 1), column] == stable[min(row, y.size - 1), column])
     right = column > 0.75 * x.size
-    style.label(axes, "this vehicle", (across, up), xytext=(-9 if right else 9, 7 if above else -13),
-                textcoords="offset points", ha="right" if right else "left")  # fmt: skip
+    style.label(
+        axes,
+        "this vehicle",
+        (across, up),
+        xytext=(-9 if right else 9, 7 if above else -13),
+        textcoords="offset points",
+        ha="right" if right else "left",
+    )

@@ -35,8 +35,9 @@ RC = {
     "savefig.dpi": 100,
 }
 
-_LOOKS = frozenset(
-    "axes contour figure font grid hatch legend lines mathtext patch path savefig svg text xtick ytick".split()
+_LOOKS = (
+    *("axes", "contour", "figure", "font", "grid", "hatch", "legend", "lines", "mathtext"),
+    *("patch", "path", "savefig", "svg", "text", "xtick", "ytick"),
 )
 
 
@@ -89,5 +90,12 @@ def halo() -> list[Any]:
 
 def label(axes: Any, text: str, at: tuple[float, float], **options: Any) -> Any:
     """Write a small label into the axes, in data coordinates unless told otherwise."""
-    chosen = {"color": INK, "fontsize": 8.5, "path_effects": halo(), "zorder": 6, "xycoords": "data", **options}
+    chosen = {
+        "color": INK,
+        "fontsize": 8.5,
+        "path_effects": halo(),
+        "zorder": 6,
+        "xycoords": "data",
+        **options,
+    }
     return axes.annotate(text, at, **chosen)

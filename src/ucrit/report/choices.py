@@ -23,7 +23,7 @@ WIDE = 8.0
 
 
 def map_parameters(analysis: Analysis, asked: Sequence[str] | None) -> tuple[str, str] | None:
-    """Return the map's parameters: those asked for, or the speed and the most effective remedy, or two remedies.
+    """Return the map's parameters: those asked for, or speed and the most effective remedy, or two remedies.
 
     ``None`` where fewer than two parameters are worth a map.
     """
@@ -44,12 +44,14 @@ def _checked(vehicle: Model, asked: Sequence[str]) -> tuple[str, str]:
         raise UcritError(f"a map needs two different parameters, got {asked!r}")
     for name in asked:
         if name not in known:
-            raise UcritError(f"{type(vehicle).model_id()}: there is no parameter '{name}'{near_match(name, known)}")
+            raise UcritError(
+                f"{type(vehicle).model_id()}: there is no parameter '{name}'{near_match(name, known)}"
+            )
     return asked[0], asked[1]
 
 
 def _effective_beyond(analysis: Analysis) -> list[str]:
-    """For a stable vehicle: what would move its first critical speed, as the remedies a little above it tell."""
+    """For a stable vehicle: what would move its first critical speed, by the remedies just above it."""
     from ..analyses.remedies import remedies
 
     above = [abs(c.value) for c in analysis.critical or () if abs(c.value) > abs(analysis.speed or 0)]

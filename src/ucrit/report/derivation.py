@@ -13,8 +13,8 @@ from . import formulas
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ..core.declare import Quantity
     from ..analyses.show import Formula, Matrix, ModelDescription
+    from ..core.declare import Quantity
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,8 @@ def steps(described: ModelDescription) -> list[Step]:
 def _named(quantities: Sequence[Quantity]) -> Markup:
     """List quantities as symbol, meaning and unit."""
     entries = [
-        Markup("{}, {} [{}]").format(formulas.symbol(q.name), q.meaning, unit_text(q.unit) or "1") for q in quantities
+        Markup("{}, {} [{}]").format(formulas.symbol(q.name), q.meaning, unit_text(q.unit) or "1")
+        for q in quantities
     ]
     return Markup("; ").join(entries)
 
@@ -50,7 +51,11 @@ def _printed(parts: Sequence[Formula], left: Sequence[str] | None = None) -> tup
         if not formulas.too_long(part.text):
             shown.append(formulas.formula(part.mathml, "= 0", "" if left is None else left[i]))
     missing = len(parts) - len(shown)
-    note = f"{missing} of {len(parts)} formulas are too long to print; ucrit.show returns them." if missing else ""
+    note = (
+        f"{missing} of {len(parts)} formulas are too long to print; ucrit.show returns them."
+        if missing
+        else ""
+    )
     return tuple(shown), note
 
 
@@ -70,7 +75,9 @@ def _motion(described: ModelDescription) -> Step:
 def _linear(described: ModelDescription) -> Step:
     unknowns = [[formulas.symbol_mathml(name)] for name in described.unknowns]
     shown = [
-        formulas.equality(_sum(len(described.P)), "<mi>Q</mi><mi>u</mi>" if described.inputs else "<mn>0</mn>"),
+        formulas.equality(
+            _sum(len(described.P)), "<mi>Q</mi><mi>u</mi>" if described.inputs else "<mn>0</mn>"
+        ),
         formulas.equality("<mi>q</mi>", formulas.matrix(unknowns)),
     ]
     missing = 0
@@ -80,8 +87,8 @@ def _linear(described: ModelDescription) -> Step:
         else:
             shown.append(formulas.equality(formulas.symbol_mathml(f"P_{k}"), _cells(P)))
     return Step(
-        "Differentiated with respect to each unknown and its rates, and evaluated on the basic motion, they become "
-        "linear.",
+        "Differentiated with respect to each unknown and its rates, and evaluated on the basic motion, "
+        "they become linear.",
         "Linear equations",
         tuple(shown),
         f"{missing} matrices are too long to print; ucrit.show returns them." if missing else "",
@@ -98,17 +105,23 @@ def _inputs(described: ModelDescription) -> Step:
     long = _too_long(described.Q)
     shown = () if long else (formulas.equality("<mi>Q</mi>", _cells(described.Q)),)
     note = "The matrix is too long to print; ucrit.show returns it." if long else ""
-    text = Markup("The inputs, {}, act through Q. They do not touch stability.").format(_named(described.inputs))
+    text = Markup("The inputs, {}, act through Q. They do not touch stability.").format(
+        _named(described.inputs)
+    )
     return Step(text, "Input matrix", shown, note)
 
 
 def _polynomial(described: ModelDescription) -> Step:
     left = [formulas.symbol_mathml(f"a_{k}") for k in range(len(described.polynomial))]
     shown, note = _printed(described.polynomial, left)
-    s, term = formulas.symbol("s"), formulas.inline(formulas.symbol_mathml("a_k") + "<msup><mi>s</mi><mi>k</mi></msup>")
+    s, term = (
+        formulas.symbol("s"),
+        formulas.inline(formulas.symbol_mathml("a_k") + "<msup><mi>s</mi><mi>k</mi></msup>"),
+    )
     text = Markup(
-        "A motion that goes as exp({} t) is possible where the determinant of the matrices, each times its power of {}, "
-        "vanishes. Freed of denominators and common factors it is the characteristic polynomial, the sum of {} with"
+        "A motion that goes as exp({} t) is possible where the determinant of the matrices, each times its power "
+        "of {}, vanishes. Freed of denominators and common factors it is the characteristic polynomial, the sum "
+        "of {} with"
     )
     return Step(
         text.format(s, s, term),
@@ -121,11 +134,18 @@ def _polynomial(described: ModelDescription) -> Step:
 def _conditions(described: ModelDescription) -> Step:
     found = described.criteria
     if found is None:
-        return Step("The conditions on these coefficients in symbols are too long to be of use.", "Conditions", ())
-    text = "All its roots lie in the left half plane if and only if the coefficients and every second Hurwitz "
-    text += "determinant are positive. Each is factored; factors that are positive for all allowed parameters are dropped"
+        return Step(
+            "The conditions on these coefficients in symbols are too long to be of use.", "Conditions", ()
+        )
+    text = (
+        "All its roots lie in the left half plane if and only if the coefficients and every second Hurwitz "
+        "determinant are positive. Each is factored; factors that are positive for all allowed parameters are "
+        "dropped"
+    )
     if found.zeros:
-        text += f"; {_count(found.zeros)} zero whatever the parameters, a free position, and divided out first"
+        text += (
+            f"; {_count(found.zeros)} zero whatever the parameters, a free position, and divided out first"
+        )
     if found.settled is not None:
         return Step(f"{text}. Nothing is left that depends on the parameters.", "Conditions", ())
     return Step(f"{text}. What is left stands above under Criteria.", "Conditions", ())

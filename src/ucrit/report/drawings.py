@@ -61,11 +61,21 @@ def of_locus(path: Locus, found: CriticalValues) -> list[Drawing]:
     symbol = formulas.symbol(path.parameter)
     return [
         Drawing(
-            svg(plot_locus(path, critical=found), "locus", f"Root locus along {path.parameter} {ends}.{crossing}"),
-            Markup("Paths of the eigenvalues as {} goes {}; what lies in the shaded half grows.").format(symbol, ends),
+            svg(
+                plot_locus(path, critical=found),
+                "locus",
+                f"Root locus along {path.parameter} {ends}.{crossing}",
+            ),
+            Markup("Paths of the eigenvalues as {} goes {}; what lies in the shaded half grows.").format(
+                symbol, ends
+            ),
         ),
         Drawing(
-            svg(plot_damping(path, critical=found), "damping", f"Damping and frequency along {path.parameter} {ends}.{crossing}"),
+            svg(
+                plot_damping(path, critical=found),
+                "damping",
+                f"Damping and frequency along {path.parameter} {ends}.{crossing}",
+            ),
             Markup("Damping and frequency of the modes against {}; stable ranges are shaded.").format(symbol),
         ),
     ]
@@ -82,11 +92,15 @@ def of_map(analysis: Analysis, asked: Sequence[str] | None, path: Locus | None) 
     ranges = {name: choices.map_range(analysis, name, MAP_POINTS, path) for name in names}
     result = stability_map(analysis.vehicle, **ranges)
     across, up = names
-    description = f"Map of stability over {across} and {up}: stable on {percent(result.share).lstrip('+')} of it."
+    description = (
+        f"Map of stability over {across} and {up}: stable on {percent(result.share).lstrip('+')} of it."
+    )
     return Drawing(
         svg(plot_map(result, vehicle=analysis.vehicle), "map", description),
         Markup("Stability over {} and {}, all other parameters as they are.{}").format(
-            formulas.symbol(across), formulas.symbol(up), "" if _speed(analysis) in names else _at_speed(analysis)
+            formulas.symbol(across),
+            formulas.symbol(up),
+            "" if _speed(analysis) in names else _at_speed(analysis),
         ),
     )
 
@@ -109,7 +123,7 @@ def of_remedies(analysis: Analysis) -> Drawing | None:
     told = ", ".join(f"{r.parameter} {percent(r.relative)}" for r in helpful)
     return Drawing(
         svg(plot_remedies(helpful), "remedies", f"Bars of the smallest sufficient changes: {told}."),
-        "The smallest change of each parameter alone. Bars with a pointed end are cut off; the number counts.",
+        "The smallest change of each parameter alone. Bars with a pointed end are cut off.",
     )
 
 
@@ -120,17 +134,24 @@ def of_modes(analysis: Analysis) -> list[Drawing]:
 
     names = ", ".join(mode.name for mode in analysis.modes)
     shares = "; ".join(
-        f"{mode.name}: " + ", ".join(f"{state} {100 * share:.0f} %" for state, share in mode.participation.items())
+        f"{mode.name}: "
+        + ", ".join(f"{state} {100 * share:.0f} %" for state, share in mode.participation.items())
         for mode in analysis.modes
     )
     return [
         Drawing(
-            svg(plot_mode_shapes(analysis.modes, analysis.vehicle), "shapes", f"Dials of amplitude and phase of each variable in {names}."),
-            "Shape of each mode: length of a hand for amplitude, direction for phase, counter-clockwise is ahead in "
-            "time. Lengths compare variables of one unit; the numbers belong to 1 of the largest variable.",
+            svg(
+                plot_mode_shapes(analysis.modes, analysis.vehicle),
+                "shapes",
+                f"Dials of amplitude and phase of each variable in {names}.",
+            ),
+            "Shape of each mode: a hand's length is the amplitude, its direction the phase, counter-clockwise ahead "
+            "in time. Lengths compare variables of one unit; the numbers belong to 1 of the largest variable.",
         ),
         Drawing(
-            svg(plot_participation(analysis.modes), "participation", f"Participation of the states. {shares}."),
+            svg(
+                plot_participation(analysis.modes), "participation", f"Participation of the states. {shares}."
+            ),
             "Share of each state in each mode; a row adds up to 100 %.",
         ),
     ]

@@ -1,4 +1,4 @@
-"""Drawings as SVG inside the page: unique ids, colours that follow light and dark, a text for screen readers."""
+"""Drawings as SVG inside the page: unique ids, colours for light and dark, a text for screen readers."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def svg(figure: Any, prefix: str, description: str) -> Markup:
     for colour, name in COLOURS.items():
         text = text.replace(colour, f"var({name})")
     head = (
-        f'<svg class="figure" role="img" aria-label="{escape(description)}" viewBox="0 0 {size[1]} {size[2]}" '
-        f'style="max-width: {float(size[1]) * 4 / 3:.0f}px">'
+        f'<svg class="figure" role="img" aria-label="{escape(description)}" '
+        f'viewBox="0 0 {size[1]} {size[2]}" style="max-width: {float(size[1]) * 4 / 3:.0f}px">'
     )
-    return Markup(head + text.strip())  # noqa: S704 - matplotlib escapes texts, the description is escaped here
+    return Markup(head + text.strip())

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ..analyses.wording import speed_text
-from ..plots.labels import fixed, number, percent, unit_text
+from ..plots.labels import NOTHING, fixed, number, percent, unit_text
 from . import formulas
 
 if TYPE_CHECKING:
@@ -54,13 +54,15 @@ def parameters(vehicle: Model) -> list[dict[str, Any]]:
         unit = unit_text(declared.unit)
         if declared.is_speed:
             unit += f" ({number(3.6 * value, 4)} km/h)"
-        rows.append({
-            "symbol": formulas.symbol(name),
-            "name": name,
-            "meaning": declared.meaning,
-            "value": number(value, 7),
-            "unit": unit,
-        })
+        rows.append(
+            {
+                "symbol": formulas.symbol(name),
+                "name": name,
+                "meaning": declared.meaning,
+                "value": number(value, 7),
+                "unit": unit,
+            }
+        )
     return rows
 
 
@@ -72,14 +74,16 @@ def modes(found: tuple[Mode, ...]) -> list[dict[str, Any]]:
         text = fixed(value.real)
         if mode.oscillates:
             text += f" ± {fixed(abs(value.imag))} i"
-        rows.append({
-            "name": mode.name,
-            "eigenvalue": text,
-            "frequency": fixed(mode.frequency_hz) if mode.oscillates else "–",
-            "damping": fixed(mode.damping_ratio, 3) if mode.oscillates else "–",
-            "time": _time(mode),
-            "grows": value.real > 0,
-        })
+        rows.append(
+            {
+                "name": mode.name,
+                "eigenvalue": text,
+                "frequency": fixed(mode.frequency_hz) if mode.oscillates else NOTHING,
+                "damping": fixed(mode.damping_ratio, 3) if mode.oscillates else NOTHING,
+                "time": _time(mode),
+                "grows": value.real > 0,
+            }
+        )
     return rows
 
 
@@ -98,15 +102,17 @@ def critical(found: tuple[Critical, ...]) -> list[dict[str, Any]]:
         closed = None
         if c.closed_form and not formulas.too_long(c.closed_form.mathml):
             closed = formulas.equality(formulas.power(c.parameter, c.closed_form.power), c.closed_form.mathml)
-        rows.append({
-            "value": number(c.value, 6),
-            "road": number(3.6 * c.value, 4) if c.unit == "m/s" else "",
-            "kind": KINDS.get(c.kind, c.kind),
-            "frequency": number(c.frequency_hz) if c.frequency_hz else "–",
-            "mode": c.mode,
-            "stable": c.stable,
-            "closed": closed,
-        })
+        rows.append(
+            {
+                "value": number(c.value, 6),
+                "road": number(3.6 * c.value, 4) if c.unit == "m/s" else "",
+                "kind": KINDS.get(c.kind, c.kind),
+                "frequency": number(c.frequency_hz) if c.frequency_hz else NOTHING,
+                "mode": c.mode,
+                "stable": c.stable,
+                "closed": closed,
+            }
+        )
     return rows
 
 
@@ -117,15 +123,17 @@ def remedies(found: tuple[Remedy, ...]) -> list[dict[str, Any]]:
         if r.value is None:
             continue
         rising = r.value > r.present
-        rows.append({
-            "symbol": formulas.symbol(r.parameter),
-            "meaning": r.meaning,
-            "present": number(r.present, 6),
-            "word": "at least" if rising else "at most",
-            "value": number(rounded(r.value, up=rising), 6),
-            "unit": unit_text(r.unit),
-            "change": percent(r.relative),
-        })
+        rows.append(
+            {
+                "symbol": formulas.symbol(r.parameter),
+                "meaning": r.meaning,
+                "present": number(r.present, 6),
+                "word": "at least" if rising else "at most",
+                "value": number(rounded(r.value, up=rising), 6),
+                "unit": unit_text(r.unit),
+                "change": percent(r.relative),
+            }
+        )
     return rows
 
 
@@ -144,19 +152,21 @@ def rounded(value: float, *, up: bool, digits: int = 5) -> float:
 
 
 def criteria(analysis: Analysis) -> list[dict[str, Any]]:
-    """Return every condition: where it comes from, its formula, how it fails, whether it holds, what was dropped."""
+    """Return every condition: its origin, formula and failure, whether it holds, what was dropped."""
     rows = []
     for c in analysis.criteria or ():
-        rows.append({
-            "origin": _origin(c.name),
-            "name": formulas.symbol(c.name),
-            "formula": None if formulas.too_long(c.expression) else formulas.formula(c.mathml, "> 0"),
-            "length": len(c.expression),
-            "failure": KINDS.get(c.failure, c.failure),
-            "fails": c in analysis.failing,
-            "dropped": [formulas.from_text(text) for text in c.dropped if len(text) < 400],
-            "left_out": sum(len(text) >= 400 for text in c.dropped),
-        })
+        rows.append(
+            {
+                "origin": _origin(c.name),
+                "name": formulas.symbol(c.name),
+                "formula": None if formulas.too_long(c.expression) else formulas.formula(c.mathml, "> 0"),
+                "length": len(c.expression),
+                "failure": KINDS.get(c.failure, c.failure),
+                "fails": c in analysis.failing,
+                "dropped": [formulas.from_text(text) for text in c.dropped if len(text) < 400],
+                "left_out": sum(len(text) >= 400 for text in c.dropped),
+            }
+        )
     return rows
 
 

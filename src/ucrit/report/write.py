@@ -25,8 +25,8 @@ def write_report(
 ) -> None:
     """Write everything that is known about a vehicle to one HTML file; it appears whole or not at all.
 
-    The page holds its drawings and formulas itself and asks no other machine for anything. The same analysis gives
-    the same bytes.
+    The page holds its drawings and formulas itself and asks no other machine for anything. The same analysis
+    gives the same bytes.
 
     Parameters
     ----------
@@ -35,8 +35,8 @@ def write_report(
     path
         File to write.
     map_parameters
-        The two parameters of the stability map; by default the speed and the parameter whose change helps most, or the
-        two that help most.
+        The two parameters of the stability map; by default the speed and the parameter whose change helps most, or
+        the two that help most.
     command
         How the page was made, to be printed on it.
 
@@ -55,15 +55,21 @@ def write_report(
     write_whole(path, render(analysis, map_parameters=map_parameters, command=command).encode())
 
 
-def render(analysis: Analysis, *, map_parameters: Sequence[str] | None = None, command: str | None = None) -> str:
+def render(
+    analysis: Analysis, *, map_parameters: Sequence[str] | None = None, command: str | None = None
+) -> str:
     """Return the page as text; see `write_report`."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
     from markupsafe import Markup
 
     environment = Environment(
-        loader=FileSystemLoader(HERE), autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+        loader=FileSystemLoader(HERE),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
     )
-    css = Markup((HERE / "page.css").read_text(encoding="utf-8"))  # noqa: S704 - part of this package
+    css = Markup((HERE / "page.css").read_text(encoding="utf-8"))
     content = {
         **_texts(analysis),
         **_tables(analysis),

@@ -12,7 +12,7 @@ from ..parameters import Name
 FAILED = 1
 
 
-@click.command("check", short_help="Check a model: units, published equations and numbers, symmetry, energy.")
+@click.command("check", short_help="Check a model against units, literature, symmetry, energy.")
 @click.argument("model", type=Name("model", "vehicle", suffix=".py"))
 @click.option(
     "--published", metavar="FILE.toml", type=click.Path(), help="Equations and numbers to compare with."
@@ -37,6 +37,8 @@ def command(model: str, published: str | None) -> int:
     from ..render_model import show_report
     from ..terminal import terminal
 
+    if published is not None:
+        _refuse_unreadable(published)
     if model.endswith(".py"):
         subjects: list[Any] = list(models_in_file(Path(model)))
     else:
@@ -46,3 +48,16 @@ def command(model: str, published: str | None) -> int:
     for report in reports:
         show_report(terminal(), report)
     return 0 if all(report.ok for report in reports) else FAILED
+
+
+def _refuse_unreadable(path: str) -> None:
+    """Tell a file that cannot be read, which is wrong input, from a check that fails."""
+    import tomllib
+
+    from ...core.errors import UcritError
+    from ...core.files import read_text
+
+    try:
+        tomllib.loads(read_text(Path(path)))
+    except (tomllib.TOMLDecodeError, RecursionError) as error:
+        raise UcritError(f"{path}: not valid TOML: {error}") from None

@@ -7,7 +7,7 @@ import click
 from ..parameters import Name
 
 
-@click.command("show", short_help="Show a model: parameters, equations of motion, matrices, criteria.")
+@click.command("show", short_help="Show the equations of a model, the numbers of a vehicle.")
 @click.argument("subject", metavar="MODEL_OR_VEHICLE", type=Name("model", "vehicle", suffix=".toml"))
 @click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
 def command(subject: str, as_json: bool) -> None:

@@ -1,0 +1,127 @@
+"""Transfer functions by Cramer's rule: two determinants over a ring of polynomials in the parameters and s."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from .errors import UcritError, near_match
+from .model import Model
+
+if TYPE_CHECKING:
+    from .linear import LinearSystem
+
+
+@dataclass(frozen=True)
+class Rational:
+    """``numerator / denominator``, both polynomials in s (the ring's last generator) and the parameters.
+
+    ``cancelled`` holds the factors with s that were common to both; ``functions`` what some symbols stand for.
+    """
+
+    numerator: Any
+    denominator: Any
+    cancelled: tuple[Any, ...]
+    functions: Mapping[Any, Any]
+
+    def in_s(self, polynomial: Any) -> list[Any]:
+        """Return the coefficients of a polynomial in s, ascending, over the ring of the parameters alone."""
+        return coefficients_in_s(polynomial)
+
+
+def output_names(model: type[Model]) -> tuple[str, ...]:
+    """Names of what can be an output: the variables, their derivatives below the highest, the declared outputs."""
+    declared = model.declaration
+    states = [v.label(k) for v in declared.variables.values() for k in range(max(v.order, 1))]
+    return (*states, *declared.outputs)
+
+
+def cramer(system: LinearSystem, input: str, output: str) -> Rational:
+    """Return the transfer function from an input to an output, in lowest terms.
+
+    The determinant of P(s), bordered by the input's column and the output's row, is that of P(s) times the transfer
+    function (F. R. Gantmacher, The Theory of Matrices (1959), volume 1, section II.5).
+
+    Raises
+    ------
+    UcritError
+        If there is no such input or output.
+    """
+    from sympy import Dummy, S
+    from sympy.polys.matrices import DomainMatrix
+    from sympy.polys.rings import PolyRing
+
+    from . import linear
+
+    entries = _bordered(system, input, output)
+    flat = [e for row in entries for chain in row for e in chain]
+    domain, elements, functions = linear._domain([*flat, S.One], system.bounds)
+    symbols = domain.symbols if domain.is_Composite else ()
+    ring = PolyRing((*symbols, Dummy("s")), linear.sp.ZZ, "lex")
+    source, one, n = iter(elements), elements[-1], len(entries) - 1
+    rows = []
+    for row in entries:
+        chains = [[next(source) for _ in chain] for chain in row]
+        rows.append(linear._cleared_row([*chains, [one]], domain, ring, ring.gens[-1]))
+    scale = rows[-1][-1]
+    square = [row[:-1] for row in rows]
+    above = DomainMatrix(square, (n + 1, n + 1), ring.to_domain()).det()
+    below = scale * DomainMatrix([row[:n] for row in square[:n]], (n, n), ring.to_domain()).det()
+    return _lowest_terms(above, below, functions)
+
+
+def check_names(model: type[Model], input: str, output: str) -> None:
+    """Raise `UcritError` where a model has no such input or output."""
+    known = {"input": (input, tuple(model.declaration.inputs)), "output": (output, output_names(model))}
+    for what, (name, names) in known.items():
+        if name not in names:
+            raise UcritError(f"{model.model_id()}: there is no {what} '{name}'{near_match(name, names)}")
+
+
+def _bordered(system: LinearSystem, input: str, output: str) -> list[list[list[Any]]]:
+    """Return rows of chains: entry [i][j][k] belongs to ``s**k``."""
+    model, top = system.traced.model, len(system.P)
+    check_names(model, input, output)
+    n, column = system.P[0].rows, list(model.declaration.inputs).index(input)
+    rows = [[[system.P[k][i, j] for k in range(top)] for j in range(n)] + [[-system.Q[i, column]]] for i in range(n)]
+    declared = list(model.declaration.outputs)
+    if output in declared:
+        i = declared.index(output)
+        last = [[M[i, j] for M in system.C] for j in range(n)] + [[system.D[i, column]]]
+    else:
+        at = list(model.declaration.variables).index(output.rstrip("'"))
+        order = len(output) - len(output.rstrip("'"))
+        last = [[int(j == at and k == order) for k in range(order + 1)] for j in range(n)] + [[0]]
+    return [*rows, last]
+
+
+def _lowest_terms(above: Any, below: Any, functions: Mapping[Any, Any]) -> Rational:
+    from .factor import definite_sign, factors
+
+    common = above.gcd(below) if above else below
+    numerator, denominator = above.exquo(common), below.exquo(common)
+    leading = coefficients_in_s(denominator)[-1]
+    if definite_sign(leading) == -1 or (definite_sign(leading) is None and leading.LC < 0):
+        numerator, denominator = -numerator, -denominator
+    shared = [f for f, _ in factors(common)[1] if any(m[-1] for m in f.itermonoms())] if above else []
+    return Rational(numerator, denominator, tuple(shared), functions)
+
+
+def coefficients_in_s(polynomial: Any) -> list[Any]:
+    """Return the coefficients of a polynomial in the ring's last generator, ascending."""
+    from sympy.polys.rings import PolyRing
+
+    ring = PolyRing(polynomial.ring.symbols[:-1], polynomial.ring.domain, polynomial.ring.order)
+    parts: dict[int, dict[tuple[int, ...], Any]] = {0: {}}
+    for monom, c in polynomial.terms():
+        parts.setdefault(monom[-1], {})[monom[:-1]] = c
+    return [ring.from_dict(parts.get(k, {})) for k in range(max(parts) + 1)]
+
+
+def factored(polynomial: Any) -> tuple[int, list[tuple[Sequence[Any], int]]]:
+    """Return content and factors of a polynomial, each factor as its coefficients in s."""
+    from .factor import factors
+
+    content, found = factors(polynomial)
+    return content, [(coefficients_in_s(f), m) for f, m in found]
