@@ -9,16 +9,16 @@ from typing import Any
 import pytest
 from click.testing import CliRunner, Result
 
-from tests.cli.values import sample
 from ucrit.catalogue import find_model
 from ucrit.cli.app import cli
 from ucrit.core.files import write_vehicle
 
+from .values import sample
+
 
 @pytest.fixture(scope="session", autouse=True)
-def _cache(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
+def _plain_terminal() -> Iterator[None]:
     with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("UCRIT_CACHE", str(tmp_path_factory.mktemp("cache")))
         patch.setenv("COLUMNS", "80")
         patch.delenv("FORCE_COLOR", raising=False)
         yield

@@ -17,8 +17,8 @@ from ucrit.core.linear import LinearSystem, characteristic_polynomial, explicit
 
 def system_of(matrices):
     n = matrices[0].rows
-    model = SimpleNamespace(model_id=lambda: "random", declaration=SimpleNamespace(variables={f"q{i}": None for i in range(n)}))
-    return LinearSystem(SimpleNamespace(model=model, u=()), matrices, sp.zeros(n, 0), (sp.zeros(0, n),) * len(matrices), sp.zeros(0, 0))
+    model = SimpleNamespace(model_id=lambda: "random", declaration=SimpleNamespace(variables={f"q{i}": None for i in range(n)}, parameters={}))
+    return LinearSystem(SimpleNamespace(model=model, u=(), parameters={}), matrices, sp.zeros(n, 0), (sp.zeros(0, n),) * len(matrices), sp.zeros(0, 0))
 
 
 def eigenvalues_of(reduced):

@@ -18,9 +18,12 @@ def growth(vehicle):
     return float(modes(vehicle).growth)
 
 
-def crossing(vehicle, parameter, near):
+def crossing(vehicle, parameter, near, within=1e-3):
     """Return the parameter's value near a given one at which an eigenvalue crosses the imaginary axis."""
-    return brentq(lambda p: growth(vehicle.with_(**{parameter: p})), near * 0.999, near * 1.001, xtol=1e-13 * abs(near))
+    def function(value):
+        return growth(vehicle.with_(**{parameter: value}))
+
+    return brentq(function, near * (1 - within), near * (1 + within), xtol=1e-13 * abs(near))
 
 
 def agree(vehicle, parameter, expected, rel=1e-9):

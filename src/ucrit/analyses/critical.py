@@ -282,8 +282,9 @@ def _going(kind: str) -> str:
 
 def crossing_mode(vehicle: Model) -> Mode:
     """Return the mode nearest to the imaginary axis, rigid positions left out."""
-    found = [mode for mode in modes(vehicle) if mode.eigenvalue != 0] or list(modes(vehicle))
-    return min(found, key=lambda mode: abs(mode.eigenvalue.real))
+    zeros = compiled(type(vehicle), direction(vehicle)).structural_zeros
+    found = sorted(modes(vehicle), key=lambda mode: abs(mode.eigenvalue))
+    return min(found[zeros:] or found, key=lambda mode: abs(mode.eigenvalue.real))
 
 
 def _matches(boundary: Boundary, vehicle: Model, value: float) -> bool:

@@ -191,5 +191,5 @@ def _far(values: Array) -> Array:
     here, there = values[:-1, :, None], values[1:, None, :]
     moved = np.abs(here - there).min(axis=1)
     size = np.abs(values[1:])
-    floor = 0.1 * np.median(np.abs(values))
+    floor = 0.1 * np.median(size[size > 0]) if size.any() else 0.0
     return np.asarray((moved > STEP * np.maximum(size, floor)).any(axis=1))

@@ -13,160 +13,13 @@ import numpy.typing as npt
 from ..core.compiled import labels, state_space
 from ..core.errors import UcritError, near_match
 from ..core.model import Model
-from .convert import Series, Table, Tabular, complex_series, unit_of
 from .modes import modes
+from .response_results import FrequencyResponse, TimeResponse
 
 Array = npt.NDArray[Any]
 
 POINTS = 400
 """Points of a time or frequency axis that is not given."""
-
-
-@dataclass(frozen=True)
-class _Response(Tabular):
-    """What all responses have: leading dimensions of ``values`` are the vehicle's, then the axis, then outputs."""
-
-    vehicle: Model
-    input: str
-    outputs: tuple[str, ...]
-    units: tuple[str, ...]
-
-    @property
-    def _axis(self) -> Series:
-        raise NotImplementedError
-
-    def _series(self) -> tuple[Series, ...]:
-        raise NotImplementedError
-
-    def _place(self, output: str) -> int:
-        if output not in self.outputs:
-            raise UcritError(f"the response has no output '{output}'{near_match(output, self.outputs)}")
-        return self.outputs.index(output)
-
-    def table(self) -> Table:
-        """Return the response of each output over the axis, with units."""
-        coords = [Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.vehicle.dims.items()]
-        axis = self._axis
-        return Table(self._title, self.vehicle, (*coords, axis), self._series(), (*self.vehicle.dims, axis.name))
-
-    @property
-    def _title(self) -> str:
-        return "response"
-
-
-@dataclass(frozen=True)
-class FrequencyResponse(_Response):
-    """Steady response to sines of one input.
-
-    Attributes
-    ----------
-    frequencies
-        [Hz], shape (F,).
-    values
-        Complex amplitude of each output per unit of the input, shape (..., F, outputs).
-    stable
-        Whether the vehicle is stable, shape (...): only then does a steady response set in.
-    """
-
-    frequencies: Array
-    values: Array
-    stable: Array
-
-    def __getitem__(self, output: str) -> Array:
-        """Return the complex response of one output, shape (..., F)."""
-        return np.asarray(self.values[..., self._place(output)])
-
-    def gain(self, output: str) -> Array:
-        """Return the amplitude of an output per unit of the input, shape (..., F)."""
-        return np.asarray(np.abs(self[output]))
-
-    def gain_db(self, output: str) -> Array:
-        """Return the amplitude in decibels (20 log10 of the gain in SI units), shape (..., F)."""
-        with np.errstate(divide="ignore"):
-            return np.asarray(20 * np.log10(self.gain(output)))
-
-    def phase_deg(self, output: str) -> Array:
-        """Return the phase [deg] without jumps along the frequencies, shape (..., F)."""
-        return np.asarray(np.rad2deg(np.unwrap(np.angle(self[output]), axis=-1)))
-
-    def peak(self, output: str) -> tuple[Array, Array]:
-        """Return frequency [Hz] and size of the largest gain among the given frequencies, shapes (...)."""
-        gain = self.gain(output)
-        at = gain.argmax(axis=-1)
-        return self.frequencies[at], np.take_along_axis(gain, at[..., None], axis=-1)[..., 0]
-
-    @property
-    def _axis(self) -> Series:
-        return Series("frequency", ("frequency",), self.frequencies, "Hz")
-
-    def _series(self) -> tuple[Series, ...]:
-        dims = (*self.vehicle.dims, "frequency")
-        per = type(self.vehicle).declaration.inputs[self.input].unit
-        pairs = (
-            complex_series(name, dims, self[name], unit if per == "1" else f"({unit})/({per})")
-            for name, unit in zip(self.outputs, self.units, strict=True)
-        )
-        return tuple(series for pair in pairs for series in pair)
-
-    @property
-    def _title(self) -> str:
-        return f"frequency response to {self.input}"
-
-
-@dataclass(frozen=True)
-class TimeResponse(_Response):
-    """Response in time to a step or an impulse of one input, from the basic motion.
-
-    Attributes
-    ----------
-    kind
-        ``"step"`` or ``"impulse"``.
-    times
-        [s], shape (T,).
-    values
-        Outputs, shape (..., T, outputs), for an input of size ``size``.
-    direct
-        For an impulse, the weight of the impulse that passes straight to each output and is left out of
-        ``values``, shape (..., outputs); for a step zeros.
-    final
-        What the outputs of a stable vehicle tend to, nan for others, shape (..., outputs).
-    """
-
-    kind: str
-    size: float
-    times: Array
-    values: Array
-    direct: Array
-    final: Array
-
-    def __getitem__(self, output: str) -> Array:
-        """Return one output over time, shape (..., T)."""
-        return np.asarray(self.values[..., self._place(output)])
-
-    def overshoot(self, output: str) -> Array:
-        """Return by how much a step response exceeds its final value at most, as a share of it, shape (...)."""
-        final = self.final[..., self._place(output)]
-        with np.errstate(all="ignore"):
-            return np.asarray(np.maximum((self[output] / final[..., None]).max(axis=-1) - 1, 0))
-
-    def starts_opposite(self, output: str) -> Array:
-        """Return whether a response first goes against its final value, shape (...)."""
-        values, final = self[output], self.final[..., self._place(output)]
-        moved = np.abs(values) > 1e-9 * np.abs(values).max(axis=-1, keepdims=True)
-        first = np.take_along_axis(values, moved.argmax(axis=-1)[..., None], axis=-1)[..., 0]
-        return np.asarray(first * final < 0)
-
-    @property
-    def _axis(self) -> Series:
-        return Series("time", ("time",), self.times, "s")
-
-    def _series(self) -> tuple[Series, ...]:
-        dims = (*self.vehicle.dims, "time")
-        return tuple(Series(name, dims, self[name], unit) for name, unit in zip(self.outputs, self.units, strict=True))
-
-    @property
-    def _title(self) -> str:
-        return f"{self.kind} response to {self.input}"
 
 
 @dataclass(frozen=True)
@@ -236,7 +89,7 @@ def frequency_response(
     >>> from ucrit import load
     >>> response = frequency_response(load("understeering-car"), "delta_f", "r", [0.1, 1.0])
     >>> [round(float(g), 3) for g in response.gain("r")]
-    [5.253, 5.284]
+    [5.26, 5.464]
     """
     chosen = _choose(vehicle, input, outputs)
     f = np.atleast_1d(_axis(vehicle, "frequencies", frequencies, _frequencies))

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..core.model import Model
-from .modes import modes
+from .modes import eigenvalues
 
 POINTS = 2001
 """Points at which stability is sampled; two changes closer together than a step of these can be missed."""
@@ -27,12 +27,15 @@ def scan(vehicle: Model, name: str, lo: float, hi: float) -> Any:
     the last digit; their accuracy is that of the eigenvalues, about 1e-12 relative where the crossing is transverse.
     """
     grid = _grid(vehicle, name, lo, hi)
-    unstable = _unstable(vehicle, name, grid)
+    growth = _growth(vehicle, name, grid)
+    unstable = growth > AXIS
     changes = np.flatnonzero(unstable[1:] != unstable[:-1])
     left, right, was = grid[changes], grid[changes + 1], unstable[changes]
+    stable_side = np.where(was, growth[changes + 1], growth[changes])
+    threshold = np.where(stable_side < -AXIS, 0.0, AXIS)  # a motion that decays crosses at exactly zero
     for _ in range(60):
         middle = (left + right) / 2
-        same = _unstable(vehicle, name, middle) == was
+        same = (_growth(vehicle, name, middle) > threshold) == was
         left, right = np.where(same, middle, left), np.where(same, right, middle)
     edges = [(float(value), _kind(vehicle, name, float(value))) for value in (left + right) / 2]
     return edges, [not unstable[0], *(bool(state) for state in was)]
@@ -51,16 +54,17 @@ def _grid(vehicle: Model, name: str, lo: float, hi: float) -> Array:
     return np.concatenate([-magnitudes[::-1], magnitudes])
 
 
-def _unstable(vehicle: Model, name: str, values: Array) -> Array:
+def _growth(vehicle: Model, name: str, values: Array) -> Array:
+    """Largest real part relative to the largest modulus; impossible values take the present one."""
     if not values.size:
-        return np.zeros(0, dtype=bool)
+        return np.zeros(0)
     allowed = type(vehicle).declaration.parameters[name].allows(values)
-    found = modes(vehicle.with_(**{name: np.where(allowed, values, vehicle.values[name])}))
-    scale = np.abs(found.eigenvalues).max(axis=-1)
-    return np.asarray(found.growth > AXIS * scale)
+    found = eigenvalues(vehicle.with_(**{name: np.where(allowed, values, vehicle.values[name])}))
+    real = np.where(found == 0, -np.inf, found.real).max(axis=-1)
+    return np.asarray(real / np.abs(found).max(axis=-1))
 
 
 def _kind(vehicle: Model, name: str, value: float) -> set[str]:
-    found = modes(vehicle.with_(**{name: value}))
-    nearest = found.eigenvalues[np.argmin(np.where(found.eigenvalues == 0, np.inf, np.abs(found.eigenvalues.real)))]
-    return {"flutter" if abs(nearest.imag) > AXIS * np.abs(found.eigenvalues).max() else "divergence"}
+    found = eigenvalues(vehicle.with_(**{name: value}))
+    nearest = found[np.argmin(np.where(found == 0, np.inf, np.abs(found.real)))]
+    return {"flutter" if abs(nearest.imag) > AXIS * np.abs(found).max() else "divergence"}

@@ -173,19 +173,24 @@ def _left(A: Array, values: Array, right: Array) -> tuple[Array, Array]:
 
 
 def _critical_slope(vehicle: Model, one: Critical) -> CriticalSlope:
-    """Differentiate Re(lambda(U, p)) = 0, which holds along the boundary."""
-    there = vehicle.with_(**{one.parameter: one.value})
+    """Differentiate the condition that holds all along the boundary, ``f(U, p) = 0``: dU/dp = -f_p/f_U."""
+    change = _boundary_slopes(vehicle.with_(**{one.parameter: one.value}), one.kind)
+    across = change.pop(one.parameter)
+    slopes = {name: -slope / across + 0.0 if across else np.nan for name, slope in change.items()}
+    normalised = {name: slope * float(vehicle.values[name]) / one.value for name, slope in slopes.items()}
+    return CriticalSlope(one, slopes, normalised)
+
+
+def _boundary_slopes(there: Model, kind: str) -> dict[str, float]:
+    """Derivatives of f by parameter: of a_0 at a divergence, of the real part of the crossing pair at a flutter."""
     values, slopes = _slopes(there)
-    moving = (values != 0) if compiled(type(there), direction(there)).structural_zeros else np.ones(values.shape, bool)
-    on_axis = moving & (np.abs(values.real) <= AXIS * np.abs(values).max()) & (values.imag >= 0)
-    across = np.nan
-    if np.count_nonzero(on_axis) == 1 and one.kind != "order":
-        across = float(slopes[one.parameter][on_axis][0].real)
-    result = {}
-    for name, slope in slopes.items():
-        if name != one.parameter:
-            ratio = -float(slope[on_axis][0].real) / across if across and np.isfinite(across) else np.nan
-            result[name] = ratio + 0.0
-    values_now = {name: float(vehicle.values[name]) for name in result}
-    normalised = {name: slope * values_now[name] / one.value for name, slope in result.items()}
-    return CriticalSlope(one, result, normalised)
+    unknown = dict.fromkeys(slopes, np.nan)
+    on_axis = (np.abs(values.real) <= AXIS * np.abs(values).max()) & (values.imag > 0)
+    functions = compiled(type(there), direction(there))
+    if kind == "divergence" and not on_axis.any():
+        # The crossing eigenvalue joins those of rigid positions, but a_0 knows nothing of these.
+        found = functions.static_slopes(there.arguments())
+        return dict(zip(slopes, map(float, found), strict=True))
+    if kind == "flutter" and np.count_nonzero(on_axis) == 1:
+        return {name: float(slope[on_axis][0].real) for name, slope in slopes.items()}
+    return unknown

@@ -24,7 +24,7 @@ from .subject import Subject
 Flags = npt.NDArray[np.bool_]
 
 COUNT = 500
-MAX_ORDER = 5
+MAX_ORDER = 4
 NEAR = 1e-7
 
 

@@ -22,7 +22,6 @@ CHECKS: tuple[tuple[str, Callable[[Subject], str]], ...] = (
     ("further derivations", derivations.derivations),
     ("published critical values", stability.critical),
     ("published criteria", stability.criterion),
-    ("derived criterion", stability.derived_criterion),
     ("published numbers", stability.numbers),
     ("change of units", scaling.scaling),
     ("mirror symmetry", mirror.mirror),
@@ -30,6 +29,7 @@ CHECKS: tuple[tuple[str, Callable[[Subject], str]], ...] = (
     ("conserved quantities", conservation.conserved),
     ("compiled functions", numeric.functions),
     ("linearisation", numeric.linearisation),
+    ("derived criterion", stability.derived_criterion),
 )
 DERIVING = "equations"
 

@@ -97,6 +97,11 @@ class Compiled:
     def _matrix_slopes(self) -> Callable[[Arguments], tuple[Any, ...]]:
         return build(self._slopes["slopes"], "slopes")
 
+    @cached_property
+    def static_slopes(self) -> Callable[[Arguments], tuple[Any, ...]]:
+        """Function of the parameters giving da/dp for each of them, a the first coefficient that is not always zero."""
+        return build(self._slopes["static"], "static")
+
     def blocks(self, arguments: Arguments) -> list[Array]:
         """Return L, R, Q, Cw, Cz, D of ``L z = R w + Q u``, ``y = Cw w + Cz z + D u`` as stacked arrays."""
         with np.errstate(all="ignore"):

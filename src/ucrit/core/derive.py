@@ -45,7 +45,11 @@ def slope_facts(model: type[Model], direction: int) -> dict[str, Any]:
     slopes = [
         entry.diff(p) for p in parameters for block in (system.explicit.L, system.explicit.R) for entry in block
     ]
-    return {"slopes": generate("slopes", [parameters], slopes)}
+    static = system.polynomial.coefficients[system.polynomial.zeros].as_expr()
+    return {
+        "slopes": generate("slopes", [parameters], slopes),
+        "static": generate("static", [parameters], [static.diff(p) for p in parameters]),
+    }
 
 
 def motion_facts(model: type[Model]) -> dict[str, Any]:

@@ -119,9 +119,9 @@ def _polynomial(described: ModelDescription) -> Step:
         formulas.inline(formulas.symbol_mathml("a_k") + "<msup><mi>s</mi><mi>k</mi></msup>"),
     )
     text = Markup(
-        "A motion that goes as exp({} t) is possible where the determinant of the matrices, each times its power "
-        "of {}, vanishes. Freed of denominators and common factors it is the characteristic polynomial, the sum "
-        "of {} with"
+        "A motion that goes as exp({} t) is possible where the determinant of the matrices, each times its "
+        "power of {}, vanishes. Freed of denominators and common factors it is the characteristic polynomial, the "
+        "sum of {} with"
     )
     return Step(
         text.format(s, s, term),
@@ -139,8 +139,8 @@ def _conditions(described: ModelDescription) -> Step:
         )
     text = (
         "All its roots lie in the left half plane if and only if the coefficients and every second Hurwitz "
-        "determinant are positive. Each is factored; factors that are positive for all allowed parameters are "
-        "dropped"
+        "determinant are positive. Each is factored; factors that are positive for all allowed parameters "
+        "are dropped"
     )
     if found.zeros:
         text += (

@@ -145,8 +145,8 @@ def of_modes(analysis: Analysis) -> list[Drawing]:
                 "shapes",
                 f"Dials of amplitude and phase of each variable in {names}.",
             ),
-            "Shape of each mode: a hand's length is the amplitude, its direction the phase, counter-clockwise ahead "
-            "in time. Lengths compare variables of one unit; the numbers belong to 1 of the largest variable.",
+            "Shape of each mode: a hand's length is the amplitude, its direction the phase, counter-clockwise "
+            "ahead in time. Lengths compare variables of one unit; numbers are for 1 of the largest.",
         ),
         Drawing(
             svg(

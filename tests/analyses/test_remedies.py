@@ -1,0 +1,73 @@
+"""A remedy helps, and nothing smaller does."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from ucrit import UcritError, analyze, critical, load, modes, remedies
+from ucrit.catalogue import vehicle_names
+
+UNSTABLE = [name for name in vehicle_names() if name not in ("coach-truck",) and not analyze(name).stable]
+
+
+def is_stable_up_to(vehicle, speed):
+    name = type(vehicle).declaration.speed
+    found = critical(vehicle, name, 0.0, speed)
+    return not len(found) and found.stable_at_lower and modes(vehicle.with_(**{name: speed})).growth < 0
+
+
+@pytest.mark.parametrize("name", [n for n in UNSTABLE if "backward" not in n])
+def test_remedies_help_and_smaller_changes_do_not(name):
+    vehicle = load(name)
+    speed = float(vehicle.values[type(vehicle).declaration.speed])
+    found = remedies(vehicle)
+    assert {r.parameter for r in found} == set(vehicle.values) - {type(vehicle).declaration.speed}
+    assert any(r.value is not None for r in found)
+    for remedy in found:
+        if remedy.value is None:
+            continue
+        assert is_stable_up_to(vehicle.with_(**{remedy.parameter: remedy.value}), speed)
+        short = remedy.present + (remedy.value - remedy.present) * (1 - 1e-6)
+        assert not is_stable_up_to(vehicle.with_(**{remedy.parameter: short}), speed)
+
+
+@given(st.floats(24, 60))
+def test_remedies_of_the_caravan_are_critical_values_at_the_asked_speed(speed):
+    caravan = load("caravan").with_(U=speed)
+    for remedy in remedies(caravan):
+        if remedy.value is not None:
+            edges = [c.value for c in critical(caravan, remedy.parameter)]
+            assert any(remedy.value == pytest.approx(edge, rel=1e-7) for edge in edges)
+
+
+def test_smallest_change_first_and_the_useless_last():
+    shares = [abs(r.relative) if r.value is not None else float("inf") for r in remedies(load("bmw-320i").with_(C_r=5e4, U=40))]
+    assert shares == sorted(shares)
+    assert shares[-1] == float("inf")
+
+
+def test_a_stable_vehicle_needs_none():
+    assert remedies(load("caravan"), upto=20.0) == ()
+
+
+def test_a_parameter_that_is_zero_now_gets_a_value():
+    (c,) = [r for r in remedies(load("caravan").with_(c=0)) if r.parameter == "c"]
+    assert c.present == 0
+    assert c.value == pytest.approx(critical(load("caravan"), "c")[0].value, rel=1e-7)
+    assert c.relative == float("inf")
+
+
+def test_backing_up_cannot_be_remedied_by_hitch_or_mass():
+    assert all(r.value is None for r in remedies(load("caravan").with_(U=-2)))
+
+
+def test_a_model_without_speed_is_remedied_at_its_point():
+    found = remedies(load("wheelset-1-in-20").with_(Psi=-0.05))
+    (Psi,) = [r for r in found if r.value is not None]
+    assert Psi.parameter == "Psi"
+    assert 0 < Psi.value < 1e-9
+
+
+def test_an_empty_range_of_speeds_is_refused():
+    with pytest.raises(UcritError, match="empty range"):
+        remedies(load("caravan"), upto=10.0, since=12.0)
