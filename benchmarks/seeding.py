@@ -10,7 +10,15 @@ from ucrit.core.declare import Quantity
 from ucrit.core.model import Model
 
 SWAPPED = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult}
-OTHER = {"sin": "cos", "cos": "sin", "tan": "sin", "atan": "tan", "atan2": "atan2", "tanh": "atan", "sqrt": "abs"}
+OTHER = {
+    "sin": "cos",
+    "cos": "sin",
+    "tan": "sin",
+    "atan": "tan",
+    "atan2": "atan2",
+    "tanh": "atan",
+    "sqrt": "abs",
+}
 RATES = ("x", "dx", "ddx")
 
 Place = tuple[ast.AST, str, int | None]
@@ -19,7 +27,7 @@ Place = tuple[ast.AST, str, int | None]
 def seeded(text: str, model: type[Model] | None, function: str = "") -> Iterator[tuple[str, str, str]]:
     """Yield (what was changed, original text, changed text) for every error that can be made in a file.
 
-    With ``function`` only that function is changed, else the bodies of all methods and the fixed numbers of classes.
+    With ``function`` only that function is changed, else all methods and the fixed numbers of classes.
     """
     tree = ast.parse(text)
     original = ast.unparse(tree)
@@ -104,7 +112,11 @@ def _errors(node: ast.expr, model: type[Model] | None, known: set[str]) -> Itera
 def _other_names(group: str, name: str, model: type[Model]) -> Iterator[tuple[str, str]]:
     """Yield names that can be confused with one: another of its unit, or another derivative."""
     declared = model.declaration
-    kinds: dict[str, Any] = {"self": declared.parameters, "u": declared.inputs, **dict.fromkeys(RATES, declared.variables)}
+    kinds: dict[str, Any] = {
+        "self": declared.parameters,
+        "u": declared.inputs,
+        **dict.fromkeys(RATES, declared.variables),
+    }
     names: dict[str, Quantity] = kinds.get(group, {})
     if name not in names:
         return

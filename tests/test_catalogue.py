@@ -1,4 +1,4 @@
-"""The whole catalogue: every model is checked, has a vehicle, and agrees with something written independently."""
+"""The whole catalogue: every model is checked, has a vehicle and agrees with something independent."""
 
 import pytest
 

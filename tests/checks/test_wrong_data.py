@@ -48,14 +48,26 @@ MALFORMED = [
     ("[polynomial]", "write the table as [[polynomial]]"),
     ("[[polynomial]]\nsource = 'a'", "the key 'coefficients' is missing"),
     ("[[polynomial]]\ncoefficients = []", "the key 'source' is missing"),
-    ("[[polynomial]]\nsource = 'a'\ncoeficients = []", "there is no key 'coeficients'; did you mean 'coefficients'?"),
-    ("[[polynomial]]\nsource = 'a'\ncoefficients = []\ndirection = 2", "direction must be 1, -1 or 0 for either, got 2"),
+    (
+        "[[polynomial]]\nsource = 'a'\ncoeficients = []",
+        "there is no key 'coeficients'; did you mean 'coefficients'?",
+    ),
+    (
+        "[[polynomial]]\nsource = 'a'\ncoefficients = []\ndirection = 2",
+        "direction must be 1, -1 or 0 for either, got 2",
+    ),
     ("[[polynomial]]\nsource = 'a'\ncoefficients = ['q', 1]", "uses 'q'; allowed"),
     ("[[polynomial]]\nsource = 'a'\ncoefficients = ['a +', 1]", "the formula 'a +' cannot be read"),
-    ("[[polynomial]]\nsource = 'a'\ncoefficients = ['sn(a)', 1]", "uses the function 'sn'; did you mean 'sin'?"),
+    (
+        "[[polynomial]]\nsource = 'a'\ncoefficients = ['sn(a)', 1]",
+        "uses the function 'sn'; did you mean 'sin'?",
+    ),
     ("[[polynomial]]\nsource = 'a'\ncoefficients = ['[a][0]', 1]", "holds '[a][0]', which is no formula"),
     ("[[polynomial]]\nsource = 'a'\ncoefficients = ['a if a else b', 1]", "which is no formula"),
-    ("[[polynomial]]\nsource = 'a'\ncoefficients = [true, 1]", "a formula must be a number or a text, got True"),
+    (
+        "[[polynomial]]\nsource = 'a'\ncoefficients = [true, 1]",
+        "a formula must be a number or a text, got True",
+    ),
     ("polynomial", "not valid TOML"),
 ]
 

@@ -142,7 +142,13 @@ def test_declared_and_never_used(unused):
         def equations(self, x, dx, ddx, u):
             drag = 0 if unused == "d" else self.d * abs(dx.y) * dx.y
             inertia = 0 if unused == "rate" else self.m * ddx.y
-            return inertia + drag + self.k * x.y + self.m * self.k / self.m * x.y * 0 - (0 if unused == "F" else u.F)
+            return (
+                inertia
+                + drag
+                + self.k * x.y
+                + self.m * self.k / self.m * x.y * 0
+                - (0 if unused == "F" else u.F)
+            )
 
         def outputs(self, x, dx, u):
             return {"power": self.k * x.y * dx.y}

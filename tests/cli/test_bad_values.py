@@ -53,9 +53,13 @@ def test_bad_value_set_on_the_command_line(
     name: str, key: str, run: Run, tmp_path: Path, vehicle_file: Callable[[str], Path]
 ) -> None:
     parameter = find_model(name).declaration.parameters[key]
-    texts = [f"{v:g}" if isinstance(v, float) else v for v in bad_values(parameter) if isinstance(v, float | str)]
+    texts = [
+        f"{v:g}" if isinstance(v, float) else v for v in bad_values(parameter) if isinstance(v, float | str)
+    ]
     for text in texts:
-        result = run("analyze", vehicle_file(name), "--set", f"{key}={text}", "--report", tmp_path / "out.html")
+        result = run(
+            "analyze", vehicle_file(name), "--set", f"{key}={text}", "--report", tmp_path / "out.html"
+        )
         refused(result, tmp_path, key, (text or f"'{key}='").split()[-1])
 
 
@@ -69,7 +73,9 @@ def test_missing_and_misspelt_parameters(name: str, key: str, run: Run, tmp_path
         path = write(tmp_path / "bad.toml", name, {k: v for k, v in values.items() if k != key})
         refused(run("analyze", path), tmp_path, f"{parameter.meaning} {key} is missing", parameter.allowed)
     path = write(tmp_path / "bad.toml", name, {**values, misspelt: 1.0})
-    refused(run("analyze", path), tmp_path, f"no parameter '{misspelt}'", "did you mean" if len(key) > 1 else "")
+    refused(
+        run("analyze", path), tmp_path, f"no parameter '{misspelt}'", "did you mean" if len(key) > 1 else ""
+    )
     good = write(tmp_path / "good.toml", name, values)
     refused(run("analyze", good, "--set", f"{misspelt}=1"), tmp_path, f"no parameter '{misspelt}'")
 
@@ -80,5 +86,5 @@ def test_empty_and_reversed_ranges(
 ) -> None:
     for text in ("5:1", "3:3", "3", "", "1:2:0", "a:b", "1:2:3:4:5", "1:nan", "1:2:1e99"):
         result = run("sweep", vehicle_file(name), f"{key}={text}", "-o", tmp_path / "out.csv")
-        refused(result, tmp_path, key, text.rpartition(":")[2].replace("1e99", "1e+99"))
+        refused(result, tmp_path, key, text.rpartition(":")[2])
         assert not (tmp_path / "out.csv").exists()

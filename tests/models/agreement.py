@@ -3,13 +3,14 @@
 import numpy as np
 import pytest
 from scipy.optimize import brentq
+
 from ucrit import critical, modes
 
 SETS = 40
 
 
 def varied(vehicle, seed):
-    """Return a vehicle whose parameters differ from the given one's by up to a factor of two, the speed's sign kept."""
+    """Return a vehicle whose parameters differ from the given one's by up to a factor of two."""
     rng = np.random.default_rng(seed)
     return vehicle.with_(**{name: value * 2 ** rng.uniform(-1, 1) for name, value in vehicle.values.items()})
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from agreement import SETS, varied
 from scipy.integrate import solve_ivp
+
 from ucrit import criteria, find_model, load, modes
 from ucrit.checks import check_model
 from ucrit.core.compiled import motion

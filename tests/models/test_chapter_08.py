@@ -5,6 +5,7 @@ import math
 import numpy as np
 import pytest
 from agreement import SETS, agree, crossing, growth, varied
+
 from ucrit import criteria, critical, find_model, load, modes
 from ucrit.checks import check_model
 from ucrit.core.derive import symbolic
@@ -67,7 +68,7 @@ def test_rake_turns_the_wheel_like_a_hooke_joint_and_tilts_it(seed):
 
     fork = varied(load("motorcycle-front-fork"), seed)
     x = Names("x", {"theta": 0.02 * (seed + 1)})
-    assert math.tan(fork.ground_steer_angle(x)) == pytest.approx(math.cos(fork.beta) * math.tan(x.theta), rel=1e-12)
+    assert math.tan(fork.ground_steer_angle(x)) == pytest.approx(math.cos(fork.beta) * math.tan(x.theta))
     assert math.sin(fork.camber(x)) == pytest.approx(math.sin(fork.beta) * math.sin(x.theta), rel=1e-12)
     assert np.hypot(*fork.wheel_axle(x)[:2]) == pytest.approx(math.cos(fork.camber(x)), rel=1e-12)
 
@@ -75,7 +76,7 @@ def test_rake_turns_the_wheel_like_a_hooke_joint_and_tilts_it(seed):
 @pytest.mark.parametrize("seed", SEEDS)
 def test_rake_stiffness_and_damping(seed):
     fork = varied(load("motorcycle-front-fork"), seed)
-    m, I_c, C, _, a, b, beta, C_gamma = (fork.values[n] for n in ("m", "I_c", "C", "U", "a", "b", "beta", "C_gamma"))
+    m, I_c, C, a, b, beta, C_gamma = (fork.values[n] for n in ("m", "I_c", "C", "a", "b", "beta", "C_gamma"))
     stiffness = (a + b) * (C * math.cos(beta) + C_gamma * math.sin(beta))
     expected = np.roots([I_c + m * a**2, C * (a + b) ** 2 / fork.U, stiffness])
     assert sorted(modes(fork).eigenvalues, key=abs) == pytest.approx(sorted(expected, key=abs), rel=1e-8)
@@ -135,9 +136,10 @@ def test_flexible_pivot_is_stable_again_beyond_a_second_boundary(seed):
     k = max(caster.k, 1.5 * C / (a + b))
     first, second = m * a * b, m * b * (C * b + k * a * (a + b)) / (k * (a + b) - C)
     found = critical(caster.with_(k=k), "I_c")
+    crossings = [crossing(caster.with_(k=k), "I_c", c.value) for c in found]
     assert [c.value for c in found] == pytest.approx([first, second], rel=1e-9)
+    assert crossings == pytest.approx([first, second], rel=1e-9)
     assert [c.stable for c in found] == ["below", "above"]
-    assert [crossing(caster.with_(k=k), "I_c", c.value) for c in found] == pytest.approx([first, second], rel=1e-9)
     (condition,) = criteria(find_model("caster-flexible-pivot"))
     inertias = [0.9 * first, (first + second) / 2, 1.1 * second]
     assert [condition.value(caster.with_(k=k, I_c=I_c)) > 0 for I_c in inertias] == [True, False, True]
@@ -165,7 +167,14 @@ def test_damped_flexible_pivot_has_the_rigid_tires_critical_speed_in_the_limit(s
     soft, stiff = (critical(caster.with_(C=C), "U")[0].value for C in (1e8, 1e9))
     assert stiff == pytest.approx(slow, rel=1e-3)
     assert (stiff - slow) / (soft - slow) == pytest.approx(0.1, rel=0.02)
-    assert crossing(caster.with_(C=1e8), "U", soft) == pytest.approx(soft, rel=1e-9)
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_damped_flexible_pivot_critical_speed_by_routh_and_eigenvalues(seed):
+    caster = varied(load("shimmying-caster-damped"), seed).with_(C=1e5, k=1e4)
+    caster = caster.with_(I_c=2 * caster.m * caster.a * caster.b)
+    for found in critical(caster):
+        assert crossing(caster, "U", found.value) == pytest.approx(found.value, rel=1e-9)
 
 
 def test_relaxation_criterion():

@@ -6,6 +6,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from agreement import SETS, agree, crossing, varied
+
 from ucrit import criteria, critical, find_model, load, modes
 from ucrit.checks import check_model
 from ucrit.core.compiled import compiled
@@ -17,7 +18,10 @@ SEEDS = range(SETS)
 
 
 def hunting_speed(m, I, k_1, k_2, lateral_creep, yaw_creep, steering):
-    """Return the exact critical speed of ``m y'' + e/V y' - e psi + k_1 y``, ``I psi'' + g/V psi' + h y + k_2 psi``."""
+    """Return the exact critical speed of a wheelset.
+
+    ``m y'' + e/V y' - e psi + k_1 y = 0`` and ``I psi'' + g/V psi' + h y + k_2 psi = 0``.
+    """
     e, g, h = lateral_creep, yaw_creep, steering
     squared = (e * k_2 + g * k_1) / (e * I + g * m)
     return math.sqrt(e * g * squared / (e * h - g / e * (k_1 - m * squared) ** 2))
@@ -57,7 +61,7 @@ def test_wheelset_critical_speed(seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_large_creep_formula_is_low_by_the_second_order_of_stiffness_over_creep(seed):
-    """Its error is ``d r_0 (m k_2 - I k_1)^2 / (8 lambda (I f_y + m d^2 f_x)^2)``: a quarter for twice the creep."""
+    """Its error is ``d r_0 (m k_2 - I k_1)^2 / (8 lambda (I f_y + m d^2 f_x)^2)``."""
     wheelset = varied(load("wheelset"), seed).with_(f_x=4e7, f_y=5e7)
 
     def error(times):
@@ -112,7 +116,8 @@ def test_rigid_truck_simplified_formula():
     gravity = 4 * p["N"] / p["R"]
     yaw = p["k_t"] + gravity * p["b"] ** 2 - 4 * p["N"] * p["lambda_"] * p["d"]
     squared = (yaw + base * (p["k_s"] + gravity)) / (p["I"] + p["m"] * base)
-    V = math.sqrt(p["r_0"] * p["d"] / p["lambda_"] * (1 + p["f_y"] / p["f_x"] * (p["b"] / p["d"]) ** 2) * squared)
+    wheelbase = 1 + p["f_y"] / p["f_x"] * (p["b"] / p["d"]) ** 2
+    V = math.sqrt(p["r_0"] * p["d"] / p["lambda_"] * wheelbase * squared)
     assert critical(truck)[0].value == pytest.approx(V, rel=1e-2)
 
 

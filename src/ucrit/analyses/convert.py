@@ -1,7 +1,7 @@
 """Results as tables with units, in the formats that users take away.
 
-Complex numbers break netCDF and JSON, so eigenvalues leave as real and imaginary parts. pandas, xarray, SciPy and
-python-control are imported when asked for, not before.
+Complex numbers break netCDF and JSON, so eigenvalues leave as real and imaginary parts. pandas, xarray,
+SciPy and python-control are imported when asked for, not before.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Table:
     rows: tuple[str, ...]
 
     def columns(self) -> Iterator[tuple[str, str, Array]]:
-        """Yield name, unit and values of each column of the flat table; other dimensions spread over columns."""
+        """Yield name, unit and values of each column of the flat table; dimensions not in rows spread out."""
         coords = {series.name: series for series in self.coords}
         shape = tuple(coords[name].values.size for name in self.rows)
         for axis, name in enumerate(self.rows):
@@ -110,7 +110,11 @@ class Tabular:
         def variables(group: Sequence[Series]) -> dict[str, Any]:
             return {s.name: (s.dims, s.values, {"units": s.unit} if s.unit else {}) for s in group}
 
-        attrs = {"title": table.title, "model": type(table.vehicle).model_id(), "vehicle": table.vehicle.info.name}
+        attrs = {
+            "title": table.title,
+            "model": type(table.vehicle).model_id(),
+            "vehicle": table.vehicle.info.name,
+        }
         return xarray.Dataset(variables(table.data), variables(table.coords), attrs)
 
     def to_csv(self, path: PathLike) -> None:
@@ -154,7 +158,8 @@ class Tabular:
 
         table = self.table()
         series = (*table.coords, *table.data)
-        arrays = {s.name: s.values.astype(object) if s.values.dtype.kind == "U" else s.values for s in series}
+        arrays: dict[str, Any] = {s.name: s.values for s in series}
+        arrays |= {s.name: s.values.astype(object) for s in series if s.values.dtype.kind == "U"}
         arrays["units"] = {s.name: s.unit for s in series if s.unit}
         buffer = io.BytesIO()
         savemat(buffer, arrays, long_field_names=True, oned_as="column")
@@ -168,7 +173,9 @@ def _entry(series: Series) -> dict[str, Any]:
 def _plain(values: Array) -> Any:
     """Nested lists that JSON can hold."""
     if values.dtype.kind == "f" and not np.isfinite(values).all():
-        return np.where(np.isfinite(values), values.astype(object), None).tolist()
+        kept = values.astype(object)
+        kept[~np.isfinite(values)] = None
+        return kept.tolist()
     return values.tolist()
 
 
@@ -235,7 +242,11 @@ def to_control(vehicle: Model) -> Any:
     """
     A, B, C, D, outputs = _observed(vehicle)
     control = _needed("control", "control", "a control system")
-    names = {"states": list(labels(vehicle)), "inputs": list(type(vehicle).declaration.inputs), "outputs": outputs}
+    names = {
+        "states": list(labels(vehicle)),
+        "inputs": list(type(vehicle).declaration.inputs),
+        "outputs": outputs,
+    }
     return control.ss(A, B, C, D, name=vehicle.info.name or type(vehicle).model_id(), **names)
 
 

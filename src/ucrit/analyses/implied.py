@@ -1,4 +1,4 @@
-"""Conditions that others imply: a sum that cannot be negative, and vanishes only where another condition fails."""
+"""Conditions that others imply: sums that are never negative and vanish only where another condition fails."""
 
 from __future__ import annotations
 
@@ -14,18 +14,22 @@ if TYPE_CHECKING:
 def implied(poly: PolyElement, others: Sequence[PolyElement]) -> bool:
     """Tell whether ``poly > 0`` follows from the bounds and from the other conditions ``other > 0``.
 
-    Sufficient, not necessary: ``b > 0`` follows from ``a*b*m - I_c > 0`` with ``b >= 0``, because ``b = 0`` makes
-    the latter negative.
+    Sufficient, not necessary: ``b > 0`` follows from ``a*b*m - I_c > 0`` with ``b >= 0``, because ``b = 0``
+    makes the latter negative.
     """
     zeros = _vanishing(poly)
     return zeros is not None and any(_never_positive(_without(other, zeros)) for other in others)
 
 
 def _vanishing(poly: PolyElement) -> set[int] | None:
-    """Generators that must all be zero for ``poly`` to vanish; ``None`` where it may be negative or that is unclear."""
+    """Generators all zero where ``poly`` vanishes; ``None`` where it may be negative or that is unclear."""
     zeros: set[int] = set()
     for monom, c in poly.terms():
-        powers = [(i, *sign_of_power(g, e)) for i, (g, e) in enumerate(zip(poly.ring.symbols, monom, strict=True)) if e]
+        powers = [
+            (i, *sign_of_power(g, e))
+            for i, (g, e) in enumerate(zip(poly.ring.symbols, monom, strict=True))
+            if e
+        ]
         product = 1 if c > 0 else -1
         for _, sign, _ in powers:
             product *= sign or 0

@@ -26,7 +26,7 @@ FARTHEST = 10.0
 """Critical values beyond this multiple of the present value do not stretch the default range."""
 
 STEP = 0.05
-"""Change of an eigenvalue between neighbours, as a share of its size, above which a point is put between them."""
+"""Change of an eigenvalue in one step, as a share of its size, above which the step is halved."""
 
 ROUNDS = 6
 """Times that steps are halved."""
@@ -47,8 +47,8 @@ class Locus(Tabular):
     branches
         Shape (S, n) [1/s]: each row a permutation of the eigenvalues at that value.
     names
-        Name of the mode of each branch where the vehicle is on it: at its own value of the parameter, or, if that
-        is outside the range, at the nearest end.
+        Name of the mode of each branch where the vehicle is on it: at its own value of the parameter, or, if
+        that is outside the range, at the nearest end.
     reference
         The parameter's value [SI] that the names are for.
     """
@@ -92,16 +92,16 @@ def locus(
     parameter
         The speed by default.
     lower, upper
-        Range [SI]. By default it ends at 1.5 times the present or the largest critical value, whichever is larger
-        (critical values beyond ten times the present one aside), and starts at a hundredth of that.
+        Range [SI]. By default it ends at 1.5 times the present or the largest critical value, whichever is
+        larger (critical values beyond ten times the present one aside), and starts at a hundredth of that.
     points
         Even steps to begin with; where eigenvalues move fast some are halved, up to six times.
 
     Returns
     -------
     Locus
-        No eigenvalue is lost or doubled; the two of a complex pair keep their half planes. Where real roots meet
-        and turn complex, which of the two takes which side is arbitrary.
+        No eigenvalue is lost or doubled; the two of a complex pair keep their half planes. Where real roots
+        meet and turn complex, which of the two takes which side is arbitrary.
 
     Raises
     ------
@@ -117,7 +117,9 @@ def locus(
     """
     name = parameter_name(vehicle, parameter)
     if vehicle.dims:
-        raise UcritError(f"a root locus is that of one vehicle: give one value each for {', '.join(vehicle.dims)}")
+        raise UcritError(
+            f"a root locus is that of one vehicle: give one value each for {', '.join(vehicle.dims)}"
+        )
     if isinstance(points, bool) or not isinstance(points, int) or points < 2:
         raise UcritError(f"a root locus needs 2 points or more, got {points!r}")
     lo, hi = _range(vehicle, name, lower, upper)
@@ -187,7 +189,7 @@ def _refined(vehicle: Model, name: str, grid: Array, most: int) -> Array:
 
 
 def _far(values: Array) -> Array:
-    """Which steps some eigenvalue crosses by more than `STEP` of its size, the nearest next one taken as its image."""
+    """Steps in which some eigenvalue is farther than `STEP` of its size from all those before."""
     here, there = values[:-1, :, None], values[1:, None, :]
     moved = np.abs(here - there).min(axis=1)
     size = np.abs(values[1:])

@@ -73,7 +73,7 @@ class Modes(Tabular):
     Attributes
     ----------
     eigenvalues
-        Shape (..., n), ordered from the least to the most stable, conjugates together, positive frequency first.
+        Shape (..., n), from the least to the most stable, conjugates together, positive frequency first.
     vectors
         Shape (..., n, n), right eigenvectors as columns.
     participation
@@ -95,7 +95,9 @@ class Modes(Tabular):
     def list(self) -> list[Mode]:
         """Return the modes of a vehicle with scalar parameters, one entry for a conjugate pair."""
         if self.eigenvalues.ndim != 1:
-            raise UcritError("modes of a vehicle with array parameters are arrays: use .eigenvalues and .participation")
+            raise UcritError(
+                "modes of a vehicle with array parameters are arrays: use .eigenvalues and .participation"
+            )
         kept = [k for k, value in enumerate(self.eigenvalues) if value.imag >= 0]
         names = _distinct([(self._name(k), self.eigenvalues[k]) for k in kept])
         return [
@@ -110,7 +112,7 @@ class Modes(Tabular):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of all n eigenvalues of a vehicle with scalar parameters; the second of a pair is the conjugate."""
+        """Names of all n eigenvalues of a vehicle with scalar parameters, also of conjugates."""
         names: list[str] = []
         upper = iter(self.list())
         for value in self.eigenvalues:
@@ -137,7 +139,8 @@ class Modes(Tabular):
 
     def _shape(self, k: int) -> Array:
         """Scale a vector by its largest variable; rates follow."""
-        values = np.array([v if "'" not in label else 0 for v, label in zip(self.vectors[:, k], self.labels, strict=True)])
+        pairs = zip(self.vectors[:, k], self.labels, strict=True)
+        values = np.array([v if "'" not in label else 0 for v, label in pairs])
         return np.asarray(self.vectors[:, k] / values[np.argmax(abs(values))])
 
     def _name(self, k: int) -> str:
@@ -184,8 +187,8 @@ def modes(vehicle: Model) -> Modes:
     Returns
     -------
     Modes
-        Iterating over it gives named `Mode` objects when all parameters are scalars. Accuracy is that of LAPACK's
-        balanced QR; eigenvalues that are zero whatever the parameters are returned as exact zeros.
+        Iterating over it gives named `Mode` objects when all parameters are scalars. Accuracy is that of
+        LAPACK's balanced QR; eigenvalues that are zero whatever the parameters are returned as exact zeros.
 
     Examples
     --------
@@ -198,7 +201,7 @@ def modes(vehicle: Model) -> Modes:
 
 
 def eigensystem(vehicle: Model) -> tuple[Array, Array]:
-    """Return eigenvalues [1/s] (..., n) and right eigenvectors (..., n, n) in columns, ordered as in `Modes`."""
+    """Return eigenvalues [1/s] (..., n) and right eigenvectors (..., n, n) in columns, in order."""
     values, vectors = np.linalg.eig(_state_matrix(vehicle))
     values, vectors = values.astype(complex), vectors.astype(complex)
     order = _order(values)
@@ -241,13 +244,13 @@ def _with_exact_zeros(vehicle: Model, values: Array) -> Array:
 
 
 def _participation(vectors: Array) -> Array:
-    """Share of each state in each mode, ``|left * right|``; by the right vectors alone where none are left."""
+    """Share of each state in each mode, ``|left * right|``; of the right vectors alone where none is left."""
     try:
         left = np.swapaxes(np.linalg.inv(vectors), -1, -2)
         product = np.abs(left * vectors)
         defective = ~np.isfinite(product).all(axis=(-1, -2), keepdims=True)
     except np.linalg.LinAlgError:
-        product, defective = np.abs(vectors), np.zeros(vectors.shape[:-2] + (1, 1), dtype=bool)
+        product, defective = np.abs(vectors), np.zeros((*vectors.shape[:-2], 1, 1), dtype=bool)
     product = np.where(defective, np.abs(vectors), product)
     return np.asarray(product / product.sum(axis=-2, keepdims=True))
 

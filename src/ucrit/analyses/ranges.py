@@ -18,7 +18,7 @@ COUNT = 100
 
 MAX_COUNT = 10_000_000
 
-HOW = "write LO:HI, LO:HI:COUNT, LO:HI:COUNT:log or values separated by commas, with a unit at the end if need be"
+HOW = "write LO:HI, LO:HI:COUNT, LO:HI:COUNT:log or values separated by commas, then a unit if need be"
 
 _PART = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|log\b)?\s*(.*?)\s*$", re.DOTALL)
 
@@ -26,8 +26,8 @@ _PART = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?|log\b)?\s*(.*
 def parse_range(text: str, unit: str = "1", thing: str = "range") -> Array:
     """Return the values of a range in coherent SI units.
 
-    ``"5:40"`` is 100 even steps, ``"5:40:36"`` 36 points, ``"1e3:1e6:50:log"`` 50 points with one ratio between
-    neighbours, ``"1, 2, 5"`` a list. A unit belongs to all numbers before it back to the unit before:
+    ``"5:40"`` is 100 evenly spaced points, ``"5:40:36"`` 36 of them, ``"1e3:1e6:50:log"`` 50 points with one
+    ratio between neighbours, ``"1, 2, 5"`` a list. A unit belongs to all numbers before it back to the unit before:
     ``"20:130 km/h"``, ``"20:130:12 km/h"``, ``"500 kg, 1, 2 t"``. Without any unit numbers are SI.
 
     Parameters
@@ -91,7 +91,9 @@ def _parts(parts: list[str], unit: str, thing: str, text: str) -> tuple[float, f
 def _count(text: str, thing: str) -> int:
     value = float(text)
     if not value.is_integer() or not 2 <= value <= MAX_COUNT:
-        raise UcritError(f"{thing}: the number of points must be a whole number from 2 to {MAX_COUNT}, got {text}")
+        raise UcritError(
+            f"{thing}: the number of points must be a whole number from 2 to {MAX_COUNT}, got {text}"
+        )
     return int(value)
 
 

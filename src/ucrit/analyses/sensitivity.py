@@ -39,8 +39,8 @@ class CriticalSlope:
     critical
         The critical speed.
     slopes
-        dU_crit/dp by parameter, in m/s per unit of the parameter; nan where the speed has no derivative (two modes
-        cross together, an eigenvalue is repeated there, or the axis is touched and not crossed).
+        dU_crit/dp by parameter, in m/s per unit of the parameter; nan where the speed has no derivative (two
+        modes cross together, an eigenvalue is repeated there, or the axis is touched and not crossed).
     normalised
         ``p/U_crit dU_crit/dp``: percent of critical speed per percent of parameter.
     """
@@ -63,8 +63,9 @@ class Sensitivity(Tabular):
     eigenvalues
         Shape (..., n) [1/s], least stable first.
     slopes
-        By parameter p, shape (..., n): d(eigenvalue)/dp [1/s per unit of p], complex; nan where the eigenvalue is
-        repeated (closer than 1e-7 of the largest to another) or so ill-conditioned that rounding may spoil it.
+        By parameter p, shape (..., n): d(eigenvalue)/dp [1/s per unit of p], complex; nan where the eigenvalue
+        is repeated (closer than 1e-7 of the largest to another) or so ill-conditioned that rounding may
+        spoil it.
     growth
         By parameter, shape (...): derivative of the largest real part [1/s per unit of p], nan as above.
     critical
@@ -80,14 +81,16 @@ class Sensitivity(Tabular):
 
     @property
     def normalised(self) -> dict[str, Array]:
-        """``p d(eigenvalue)/dp`` [1/s] by parameter: change of the eigenvalue per relative change of the parameter."""
+        """``p d(eigenvalue)/dp`` [1/s] by parameter: change per relative change of the parameter."""
         values = dict(zip(self.vehicle.values, self.vehicle.arguments(), strict=True))
         return {name: slope * np.asarray(values[name])[..., None] for name, slope in self.slopes.items()}
 
     def table(self) -> Table:
         """Return the slopes, one variable a parameter."""
         dims = tuple(self.vehicle.dims)
-        coords = [Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.vehicle.dims.items()]
+        coords = [
+            Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.vehicle.dims.items()
+        ]
         coords.append(Series("mode", ("mode",), np.array(self.names)))
         data = list(complex_series("eigenvalue", (*dims, "mode"), self.eigenvalues, "1/s"))
         for name, slope in self.slopes.items():
@@ -118,7 +121,7 @@ def sensitivity(vehicle: Model) -> Sensitivity:
     --------
     >>> from ucrit import load
     >>> found = sensitivity(load("caravan"))
-    >>> found.growth["c"] < 0, found.critical[0].slopes["c"] > 0
+    >>> bool(found.growth["c"] < 0), found.critical[0].slopes["c"] > 0
     (True, True)
     """
     values, slopes = _slopes(vehicle)
@@ -149,9 +152,9 @@ def _slopes(vehicle: Model) -> tuple[Array, dict[str, Array]]:
 
 
 def _left(A: Array, values: Array, right: Array) -> tuple[Array, Array]:
-    """Left vectors in rows, scaled to ``y x = 1``, and which eigenvalues are simple enough to have a derivative.
+    """Left vectors in rows, scaled to ``y x = 1``, and which eigenvalues are simple enough.
 
-    Each solves a bordered system that is regular exactly if its eigenvalue is simple, whatever the others are.
+    Each solves a bordered system that is regular exactly if its eigenvalue is simple, whatever others are.
     """
     n = values.shape[-1]
     size = np.abs(values).max(axis=-1, keepdims=True) + np.finfo(float).tiny
@@ -182,12 +185,15 @@ def _critical_slope(vehicle: Model, one: Critical) -> CriticalSlope:
 
 
 def _boundary_slopes(there: Model, kind: str) -> dict[str, float]:
-    """Derivatives of f by parameter: of a_0 at a divergence, of the real part of the crossing pair at a flutter."""
+    """Derivatives of f: of a_0 at a divergence, of the real part of the crossing pair at a flutter."""
     values, slopes = _slopes(there)
     unknown = dict.fromkeys(slopes, np.nan)
     on_axis = (np.abs(values.real) <= AXIS * np.abs(values).max()) & (values.imag > 0)
     functions = compiled(type(there), direction(there))
-    if kind == "divergence" and not on_axis.any():
+    zeros = functions.structural_zeros
+    # m equal eigenvalues come out of a computation apart by the m-th root of its precision.
+    near = np.abs(values) <= 10 * np.finfo(float).eps ** (1 / (zeros + 2)) * np.abs(values).max()
+    if kind == "divergence" and not on_axis.any() and np.count_nonzero(near) == zeros + 1:
         # The crossing eigenvalue joins those of rigid positions, but a_0 knows nothing of these.
         found = functions.static_slopes(there.arguments())
         return dict(zip(slopes, map(float, found), strict=True))

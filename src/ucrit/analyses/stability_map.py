@@ -1,7 +1,7 @@
 """Where in a plane (or box) of parameters a vehicle is stable: a million points in some milliseconds.
 
-No eigenvalue is computed: the coefficients of the characteristic polynomial are known functions of the parameters,
-and the conditions of Lienard and Chipart are a few products of them.
+No eigenvalue is computed: the coefficients of the characteristic polynomial are known functions of the
+parameters, and the conditions of Lienard and Chipart are a few products of them.
 """
 
 from __future__ import annotations
@@ -59,8 +59,12 @@ class StabilityMap(Tabular):
 
     def table(self) -> Table:
         """Return the map with its coordinates."""
-        coords = tuple(Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.coords.items())
-        return Table("stability map", self.vehicle, coords, (Series("stable", self.dims, self.stable),), self.dims)
+        coords = tuple(
+            Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.coords.items()
+        )
+        return Table(
+            "stability map", self.vehicle, coords, (Series("stable", self.dims, self.stable),), self.dims
+        )
 
 
 def stability_map(vehicle: Model, /, **grid: Sequence[float] | Array | str) -> StabilityMap:
@@ -77,7 +81,8 @@ def stability_map(vehicle: Model, /, **grid: Sequence[float] | Array | str) -> S
     Returns
     -------
     StabilityMap
-        Verdicts are those of the characteristic polynomial, right unless the products compared agree to about 2e-15.
+        Verdicts are those of the characteristic polynomial, right unless the products compared agree to about
+        2e-15 (up to fourth order; above, unless a pivot of Routh's array is as small as its rounding error).
 
     Raises
     ------
@@ -88,12 +93,14 @@ def stability_map(vehicle: Model, /, **grid: Sequence[float] | Array | str) -> S
     --------
     >>> from ucrit import load
     >>> stability_map(load("caravan"), c=[0, 2000, 4000], U=[15, 30]).stable.tolist()
-    [[False, False], [True, False], [True, False]]
+    [[False, False], [False, False], [True, False]]
     """
     if not grid:
         raise UcritError("a stability map needs ranges, such as b=[0.1, 0.2], k=[1e4, 1e5]")
     if extra := [name for name in vehicle.dims if name not in grid]:
-        raise UcritError(f"a stability map is that of one vehicle: give one value each for {', '.join(extra)}")
+        raise UcritError(
+            f"a stability map is that of one vehicle: give one value each for {', '.join(extra)}"
+        )
     mapped = vehicle.with_(**read_ranges(vehicle, grid))
     coords = {name: mapped.dims[name] for name in grid}
     shape = tuple(x.size for x in coords.values())
@@ -101,7 +108,9 @@ def stability_map(vehicle: Model, /, **grid: Sequence[float] | Array | str) -> S
     for count in shape:
         points *= count
     if points > MAX_POINTS:
-        raise UcritError(f"{type(vehicle).model_id()}: a map of {points:,} points is too large; at most {MAX_POINTS:,}")
+        raise UcritError(
+            f"{type(vehicle).model_id()}: a map of {points:,} points is too large; at most {MAX_POINTS:,}"
+        )
     return StabilityMap(mapped, coords, _decide(mapped, coords, shape))
 
 

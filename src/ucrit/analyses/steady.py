@@ -214,12 +214,15 @@ def _derive(cls: type[Model], steer: str) -> dict[str, Any]:
     below = below * ring.gens[at]
     common = above.gcd(below)
     above, below = above.exquo(common), below.exquo(common)
+    if above.LC < 0:
+        above, below = -above, -below
     parts: dict[int, dict[Any, Any]] = {0: {}, 2: {}}
     for monom, c in below.terms():
         parts.setdefault(monom[at], {})[(*monom[:at], 0, *monom[at + 1 :])] = c
     if any(m[at] for m in above.itermonoms()) or set(parts) != {0, 2}:
         raise UcritError(f"{cls.model_id()}: the steer angle of a steady turn is not of the form L/R + K U**2/R")
-    L, K = (readable_ratio(ring.from_dict(parts[k]), above).xreplace(dict(found.functions)) for k in (0, 2))
+    ratios = (readable_ratio(ring.from_dict(parts[k]), above).xreplace(dict(found.functions)) for k in (0, 2))
+    L, K = map(sign_inside, ratios)
     symbols = list(system.traced.parameters.values())
     return {
         "wheelbase_formula": typeset.text(L),
@@ -228,6 +231,15 @@ def _derive(cls: type[Model], steer: str) -> dict[str, Any]:
         "source": generate("steady", [symbols], [L, K]),
         "parameters": [s.name for s in symbols],
     }
+
+
+def sign_inside(product: Any) -> Any:
+    """Write ``-m*(x - y)`` as ``m*(y - x)``."""
+    sums = [f for f in product.args if f.is_Add and any(t.could_extract_minus_sign() for t in f.args)]
+    if not (product.is_Mul and product.could_extract_minus_sign() and sums):
+        return product
+    rest = [-f if f == sums[0] else f for f in product.args]
+    return type(product)(-1, *rest)
 
 
 def axle_loads(vehicle: Model) -> tuple[Any, Any]:

@@ -153,8 +153,8 @@ def _check_size(shape: tuple[int, ...], order: int, where: str) -> None:
     size = points * (16 * order + 25)
     if size > MAX_BYTES:
         raise UcritError(
-            f"{where}: a sweep of {points:,} points needs {size / 2**30:.1f} GiB and {MAX_BYTES / 2**30:.1f} GiB "
-            "are allowed; take fewer points, or stability_map for a map of what is stable"
+            f"{where}: a sweep of {points:,} points needs {size / 2**30:.1f} GiB and "
+            f"{MAX_BYTES / 2**30:.1f} GiB are allowed; take fewer points, or stability_map for a map of what is stable"
         )
 
 
@@ -167,8 +167,12 @@ def _evaluate(vehicle: Model) -> tuple[Array, ...]:
     growth = np.where(rigid, -np.inf, values.real).max(axis=-1)
     damping = np.where(rigid, np.inf, -values.real / size).min(axis=-1)
     functions = compiled(type(vehicle), direction(vehicle))
-    a = np.stack([np.broadcast_to(x, shape) for x in coefficients(vehicle)[functions.structural_zeros :]], axis=-1)
+    a = np.stack(
+        [np.broadcast_to(x, shape) for x in coefficients(vehicle)[functions.structural_zeros :]], axis=-1
+    )
     if not a[..., -1].all():
         raise UcritError(f"{type(vehicle).model_id()}: the equations are singular for these parameters")
-    decided = hurwitz_stable(deciding_coefficients(vehicle)) if a.shape[-1] > 1 else np.ones(shape, dtype=bool)
+    decided = (
+        hurwitz_stable(deciding_coefficients(vehicle)) if a.shape[-1] > 1 else np.ones(shape, dtype=bool)
+    )
     return values, growth, right_half_plane(a), np.broadcast_to(decided, shape), damping

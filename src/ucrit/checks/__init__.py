@@ -1,6 +1,6 @@
 """Checks of a model: units, published equations and numbers, further derivations, symmetry, conservation.
 
-``check_model`` runs every check that applies to a model, shipped or a user's own, and says why others do not::
+``check_model`` runs every check that applies to a model, shipped or your own, and says why others do not::
 
     print(check_model(MyTrailer, published="my_trailer.toml"))
 """
@@ -43,8 +43,8 @@ def check_model(
     >>> report = check_model(TrailerKinematic)
     >>> report.ok
     True
-    >>> print(report.checks[3])
-    pass  published polynomial: 1 published polynomials agree
+    >>> print(report.checks[1])
+    pass  equations: 1 equations with matching units, solved by the basic motion
     """
     subject = Subject.of(model, seed, None if published is None else Path(published))
     return Report(subject.model.model_id(), tuple(run(subject)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -38,7 +39,9 @@ def energy(subject: Subject) -> str:
     forces = [*of("forces", ()), *zip(multipliers, of("constraints", ()), strict=False)]
     power = [-force * dq * sp.diff(sp.sympify(velocity), dq) for force, velocity in forces for dq in rates]
     if _imbalance(subject, [*_rate(h, traced), *power]):
-        raise FailedCheckError("energy is not balanced along the motion: its rate is not the power of the forces")
+        raise FailedCheckError(
+            "energy is not balanced along the motion: its rate is not the power of the forces"
+        )
     return "the rate of energy is the power of the forces along the motion"
 
 
@@ -58,7 +61,7 @@ def conserved(subject: Subject) -> str:
 
 def _rate(expression: Any, traced: Traced) -> list[Any]:
     """Return the terms of the time derivative of a function of the states."""
-    steps = [(low, high) for chain in traced.q for low, high in zip(chain, chain[1:], strict=False)]
+    steps = [(low, high) for chain in traced.q for low, high in pairwise(chain)]
     return [sp.diff(expression, low) * high for low, high in steps]
 
 

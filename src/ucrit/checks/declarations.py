@@ -25,25 +25,34 @@ def declarations(subject: Subject) -> str:
             raise FailedCheckError(f"{name} has no meaning")
     for name, parameter in declared.parameters.items():
         if parameter.default is not None and not parameter.allows(parameter.default):
-            raise FailedCheckError(f"the default of {name} must be {parameter.allowed}, got {parameter.default:g}")
+            raise FailedCheckError(
+                f"the default of {name} must be {parameter.allowed}, got {parameter.default:g}"
+            )
     return f"{len(quantities)} quantities with unit and meaning"
 
 
 def used(subject: Subject) -> str:
     """Every parameter, variable and input occurs in the equations or outputs."""
     traced = subject.traced
-    occurring = set().union(*(e.free_symbols for e in (*traced.residuals, *traced.outputs, *traced.basic.values())))
-    for name, symbol in {**traced.parameters, **dict(zip(subject.model.declaration.inputs, traced.u, strict=True))}.items():
+    occurring = set().union(
+        *(e.free_symbols for e in (*traced.residuals, *traced.outputs, *traced.basic.values()))
+    )
+    for name, symbol in {
+        **traced.parameters,
+        **dict(zip(subject.model.declaration.inputs, traced.u, strict=True)),
+    }.items():
         if symbol not in occurring:
             raise FailedCheckError(f"{name} is declared and never used")
     for chain in traced.q:
         if chain[-1] not in occurring:
-            raise FailedCheckError(f"{chain[-1]}, the highest derivative declared, does not occur in the equations")
+            raise FailedCheckError(
+                f"{chain[-1]}, the highest derivative declared, does not occur in the equations"
+            )
     return "every parameter, variable and input occurs in the equations"
 
 
 def equations(subject: Subject) -> str:
-    """Units agree in every term, unknowns and equations in number, and the basic motion solves the equations."""
+    """Units agree in every term, unknowns and equations in number, and the basic motion is a solution."""
     for direction in subject.directions:
         subject.system(direction).polynomial  # noqa: B018, deriving is the check
     return f"{len(subject.traced.residuals)} equations with matching units, solved by the basic motion"

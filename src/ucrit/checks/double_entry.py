@@ -37,10 +37,14 @@ def matrices(subject: Subject) -> str:
     for entry in entries:
         system = subject.system(entry.direction)
         given = {
-            key: _matrix(entry, key, system.traced.parameters) for key in ("P_0", "P_1", "P_2", "Q") if key in entry.content
+            key: _matrix(entry, key, system.traced.parameters)
+            for key in ("P_0", "P_1", "P_2", "Q")
+            if key in entry.content
         }
         if given["P_0"].shape != system.P[0].shape:
-            raise FailedCheckError(f"{entry.where}: P_0 is of shape {given['P_0'].shape}, derived {system.P[0].shape}")
+            raise FailedCheckError(
+                f"{entry.where}: P_0 is of shape {given['P_0'].shape}, derived {system.P[0].shape}"
+            )
         P = [given.get(key, sp.zeros(*system.P[0].shape)) for key in ("P_0", "P_1", "P_2")]
         if not same_equations(system, P, given.get("Q"), subject.points(entry.where, entry.direction)):
             raise FailedCheckError(f"{entry.where}: the linear equations are others")
@@ -51,14 +55,19 @@ def state_matrix(subject: Subject) -> str:
     """The state matrices are the published ones."""
     entries = subject.published("state_matrix")
     for entry in entries:
-        made, parameters = compiled(subject.model, entry.direction), subject.system(entry.direction).traced.parameters
+        made, parameters = (
+            compiled(subject.model, entry.direction),
+            subject.system(entry.direction).traced.parameters,
+        )
         given = {key: _matrix(entry, key, parameters) for key in ("A", "B") if key in entry.content}
         for key, M in given.items():
             function = numeric(list(M), list(parameters.values()))
             for point in subject.points(entry.where, entry.direction):
                 found = getattr(made.state_space(point), key)
                 if found.shape != M.shape:
-                    raise FailedCheckError(f"{entry.where}: {key} is of shape {M.shape}, derived {found.shape}")
+                    raise FailedCheckError(
+                        f"{entry.where}: {key} is of shape {M.shape}, derived {found.shape}"
+                    )
                 size = 1e-12 * abs(found).max(axis=1).repeat(M.cols)
                 for got, expected, least in zip(found.ravel(), function(point), size, strict=True):
                     if abs(got - float(expected)) > 1e-10 * abs(got) + least:
@@ -76,7 +85,10 @@ def transfer(subject: Subject) -> str:
     for entry in entries:
         system, declared = subject.system(entry.direction), subject.model.declaration
         name_in, name_out = entry.content["input"], entry.content["output"]
-        for name, allowed in ((name_in, declared.inputs), (name_out, {**declared.variables, **declared.outputs})):
+        for name, allowed in (
+            (name_in, declared.inputs),
+            (name_out, {**declared.variables, **declared.outputs}),
+        ):
             if name not in allowed:
                 raise FailedCheckError(f"{entry.where}: the model has no '{name}'{near_match(name, allowed)}")
         symbols = list(system.traced.parameters.values())
@@ -91,5 +103,7 @@ def transfer(subject: Subject) -> str:
                 nodes = frequencies(bottom, len(top) + len(bottom))
                 for s, value in zip(nodes, derived(point, nodes), strict=True):
                     if not close(value * value_at(bottom, s), value_at(top, s)):
-                        raise FailedCheckError(f"{entry.where}: {name_out}/{name_in} is another transfer function")
+                        raise FailedCheckError(
+                            f"{entry.where}: {name_out}/{name_in} is another transfer function"
+                        )
     return f"{len(entries)} published transfer functions agree"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import operator
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import sympy as sp
@@ -18,13 +18,15 @@ OPERATORS = {
     ast.Div: operator.truediv,
     ast.Pow: operator.pow,
 }
-SIGNS = {ast.USub: operator.neg, ast.UAdd: operator.pos}
-FUNCTIONS = {name: getattr(sp, name) for name in ("sin", "cos", "tan", "asin", "atan", "atan2", "sqrt", "exp", "log")}
+SIGNS: Mapping[type[ast.unaryop], Callable[[Any], Any]] = {ast.USub: operator.neg, ast.UAdd: operator.pos}
+FUNCTIONS = {
+    name: getattr(sp, name) for name in ("sin", "cos", "tan", "asin", "atan", "atan2", "sqrt", "exp", "log")
+}
 FUNCTIONS |= {"tanh": sp.tanh, "sign": sp.sign, "abs": sp.Abs}
 
 
 def parse(formula: str | float, names: Mapping[str, Any], where: str) -> Any:
-    """Return a formula as an expression; ``names`` gives the meaning of each name (dots included: ``dx.theta``).
+    """Return a formula as an expression, each name (``m``, ``dx.theta``) replaced by its meaning.
 
     >>> m, a = sp.symbols("m a")
     >>> parse("m*a**2/2 + 0.25", {"m": m, "a": a}, "example")

@@ -19,7 +19,7 @@ def same_equations(
 ) -> bool:
     """Tell whether ``sum P_k q^(k) = Q u`` is a regular combination of the rows of a derived system.
 
-    The combination is found at one complex frequency s from ``T P(s) = P_derived(s)`` and must hold at others.
+    The combination T is found at one frequency s from ``T P(s) = P_derived(s)`` and must hold at others.
     """
     symbols = list(system.traced.parameters.values())
     derived, given = [[matrix(M, symbols) for M in group] for group in (system.P, P)]
@@ -55,8 +55,10 @@ def _keys(M: Any) -> list[tuple[int, int]]:
     return [(i, j) for i in range(M.rows) for j in range(M.cols)]
 
 
-def response(system: LinearSystem, name_in: str, name_out: str) -> Callable[[Point, Sequence[Any]], list[Any]]:
-    """Return a function giving the transfer function from an input to an output or variable at frequencies ``s``."""
+def response(
+    system: LinearSystem, name_in: str, name_out: str
+) -> Callable[[Point, Sequence[Any]], list[Any]]:
+    """Return a function that evaluates a transfer function at given frequencies ``s``."""
     declared = system.traced.model.declaration
     column, n = list(declared.inputs).index(name_in), len(system.traced.q)
     if name_out in declared.variables:

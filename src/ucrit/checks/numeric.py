@@ -18,7 +18,7 @@ STEP = 1e-3
 
 
 def functions(subject: Subject) -> str:
-    """Compiled coefficients and matrices equal the symbolic ones; the eigenvalues of A are the polynomial's roots."""
+    """Compiled coefficients and matrices equal the symbolic ones; A has the roots of the polynomial."""
     for direction in subject.directions:
         system, made = subject.system(direction), compiled(subject.model, direction)
         symbols = list(system.traced.parameters.values())
@@ -50,7 +50,7 @@ def _roots(subject: Subject, direction: int) -> None:
 
 
 def _same_polynomial(A: Array, a: Array, tolerance: float) -> bool:
-    """Tell whether ``det(s I - A)`` is a polynomial with coefficients ``a``, times zeros for the further states."""
+    """Tell whether ``det(s I - A)`` has coefficients proportional to ``a``, and zeros for further states."""
     n, extra = A.shape[-1], A.shape[-1] - (len(a) - 1)
     size = np.maximum(np.abs(np.linalg.eigvals(A)).max(axis=-1), 1e-12)
     for k in range(n + 1):
@@ -63,7 +63,7 @@ def _same_polynomial(A: Array, a: Array, tolerance: float) -> bool:
 
 
 def linearisation(subject: Subject) -> str:
-    """Finite differences of the non-linear motion give the linear one, apart from zeros for constrained positions."""
+    """Finite differences of the non-linear motion give the linear one, zeros for constraints aside."""
     motion, found = subject.motion, ""
     for direction in subject.directions:
         made, sets = compiled(subject.model, direction), subject.parameter_sets("slopes", COUNT, direction)
@@ -75,9 +75,13 @@ def linearisation(subject: Subject) -> str:
                 raise FailedCheckError("finite differences of the non-linear motion do not give A")
         else:
             a = np.array(np.broadcast_arrays(*made.coefficients(sets), np.zeros(COUNT))[:-1])
-            found = "finite differences of the motion have the polynomial's roots and zeros for the constraints"
+            found = (
+                "finite differences of the motion have the polynomial's roots and zeros for the constraints"
+            )
             if not _same_polynomial(slopes, a, 1e-6):
-                raise FailedCheckError("finite differences of the non-linear motion have other eigenvalues than A")
+                raise FailedCheckError(
+                    "finite differences of the non-linear motion have other eigenvalues than A"
+                )
     return found
 
 
@@ -88,8 +92,8 @@ def _rows(matrices: Array) -> Array:
 def _slopes(subject: Subject, sets: list[Array]) -> Array:
     """Return the Jacobian of the motion about the basic one.
 
-    Central differences at three steps, extrapolated so that errors of first order (from ``abs(v) * v``) and of second
-    order in the step vanish.
+    Central differences at three steps, extrapolated so that errors of first order in the step, which
+    ``abs(v) * v`` makes, and of second order vanish.
     """
     coarse, middle, fine = (_central(subject, sets, STEP / division) for division in (1, 2, 4))
     first, second = 2 * middle - coarse, 2 * fine - middle

@@ -1,4 +1,4 @@
-"""Comparison of expressions in fifty-digit arithmetic at random parameters, which leaves no doubt about equality."""
+"""Comparison of expressions in fifty digits at random parameters, which leaves no doubt about equality."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ def numeric(expressions: Iterable[Any], symbols: Sequence[sp.Symbol]) -> Callabl
     """Return a function that evaluates expressions in fifty digits.
 
     >>> p = sp.Symbol("p")
-    >>> print(numeric([sp.sqrt(p)], [p])([2])[0])
-    1.4142135623730950488016887242096980785696718753769
+    >>> mpmath.nstr(numeric([sp.sqrt(p)], [p])([2])[0], 30)
+    '1.41421356237309504880168872421'
     """
     function = sp.lambdify([list(symbols)], list(expressions), modules="mpmath")
 
@@ -59,7 +59,7 @@ def polynomial(ascending: Sequence[Any], s: Any) -> Any:
 
 
 def frequencies(ascending: Sequence[Any], count: int) -> list[Any]:
-    """Return points of the complex plane, as large as the polynomial's roots, and none of them a likely root."""
+    """Return complex numbers as large as the polynomial's roots, none of them a likely root."""
     nonzero = [(k, abs(a)) for k, a in enumerate(ascending) if a]
     (low, first), (high, last) = nonzero[0], nonzero[-1]
     size = (first / last) ** (mpmath.mpf(1) / (high - low)) if high > low else mpmath.mpf(1)

@@ -78,7 +78,9 @@ def _entry(where: str, table: str, item: Mapping[str, Any]) -> Entry:
     required, optional = TABLES[table]
     for key in item:
         if key not in (*required, *optional, *COMMON):
-            raise UcritError(f"{where}: there is no key '{key}'{near_match(key, (*required, *optional, *COMMON))}")
+            raise UcritError(
+                f"{where}: there is no key '{key}'{near_match(key, (*required, *optional, *COMMON))}"
+            )
     for key in ("source", *required):
         if key not in item:
             raise UcritError(f"{where}: the key '{key}' is missing")

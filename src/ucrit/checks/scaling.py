@@ -27,7 +27,8 @@ def _factors(subject: Subject, count: int) -> Array:
 
 
 def _scale(dimension: Dimension, factors: Array) -> Array:
-    return np.prod([f**e for f, e in zip(factors, dimension, strict=True)], axis=0)
+    scale: Array = np.prod([f**e for f, e in zip(factors, dimension, strict=True)], axis=0)
+    return scale
 
 
 def _scaled(subject: Subject, sets: list[Array], factors: Array) -> list[Array]:
@@ -57,7 +58,9 @@ def _motion(subject: Subject) -> None:
         for k in range(variable.order)
     ]
     w_scale = np.array([_scale(unit, factors) for unit in units])
-    u_scale = np.array([_scale(i.dimension, factors) for i in declared.inputs.values()]).reshape(states.u.shape)
+    u_scale = np.array([_scale(i.dimension, factors) for i in declared.inputs.values()]).reshape(
+        states.u.shape
+    )
     y_scale = np.array([_scale(o.dimension, factors) for o in declared.outputs.values()])
     parameters = _scaled(subject, states.parameters, factors)
     after, before = (

@@ -67,12 +67,14 @@ class Subject:
     @property
     def derivations(self) -> list[str]:
         """Names of the methods that derive the equations again."""
-        return sorted(name for name in dir(self.model) if name.startswith("equations_") and self.is_current(name))
+        return sorted(
+            name for name in dir(self.model) if name.startswith("equations_") and self.is_current(name)
+        )
 
     def is_current(self, method: str) -> bool:
         """Tell whether a method is no older in the line of classes than the statement of motion in use.
 
-        One that a base class wrote for its own equations says nothing about those of a class that states new ones.
+        One that a base class wrote for its own equations says nothing about a class that states new ones.
         """
         lines = [vars(base) for base in self.model.__mro__]
         stated = next(i for i, names in enumerate(lines) if any(name in names for name in STATEMENTS))

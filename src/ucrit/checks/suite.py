@@ -6,7 +6,17 @@ from collections.abc import Callable, Iterator
 from typing import Any
 
 from ..core.errors import UcritError
-from . import conservation, declarations, derivations, double_entry, mirror, numeric, scaling, stability
+from . import (
+    conservation,
+    declarations,
+    derivations,
+    double_entry,
+    eigenvalues,
+    mirror,
+    numeric,
+    scaling,
+    stability,
+)
 from .report import Check, NotApplicableError
 from .subject import Subject
 
@@ -22,7 +32,7 @@ CHECKS: tuple[tuple[str, Callable[[Subject], str]], ...] = (
     ("further derivations", derivations.derivations),
     ("published critical values", stability.critical),
     ("published criteria", stability.criterion),
-    ("published numbers", stability.numbers),
+    ("published numbers", eigenvalues.numbers),
     ("change of units", scaling.scaling),
     ("mirror symmetry", mirror.mirror),
     ("energy balance", conservation.energy),

@@ -99,7 +99,7 @@ class Compiled:
 
     @cached_property
     def static_slopes(self) -> Callable[[Arguments], tuple[Any, ...]]:
-        """Function of the parameters giving da/dp for each of them, a the first coefficient that is not always zero."""
+        """Function of the parameters giving da/dp for each, a the first coefficient not always zero."""
         return build(self._slopes["static"], "static")
 
     def blocks(self, arguments: Arguments) -> list[Array]:
@@ -251,7 +251,7 @@ def motion(model: type[Model]) -> Motion:
 def _by_direction(
     vehicle: Model, evaluate: Callable[[Compiled, Arguments], Sequence[Any]], trailing: int = 0
 ) -> tuple[Any, ...]:
-    """Evaluate with the equations of the direction that each speed has; results end in ``trailing`` further axes."""
+    """Evaluate with the equations of each speed's direction; results end in ``trailing`` more axes."""
     model, arguments = type(vehicle), vehicle.arguments()
     name = model.declaration.speed
     if name is None:

@@ -9,10 +9,6 @@ if TYPE_CHECKING:
     from sympy.polys.rings import PolyElement
 
 
-LONG = 20
-"""Polynomials with more terms are left expanded: collecting them takes minutes and makes them no easier to read."""
-
-
 def factors(poly: PolyElement) -> tuple[int, list[tuple[PolyElement, int]]]:
     """Return the integer content and the irreducible factors with their multiplicities.
 
@@ -84,6 +80,16 @@ def readable(poly: PolyElement) -> Any:
         product = sp.Mul(*(readable(f) ** m for f, m in found))
         terms.append(content * generator**power * product)
     return sp.Add(*terms)
+
+
+def factored(poly: PolyElement) -> Any:
+    """Return a polynomial as the product of its factors, each in its readable form."""
+    import sympy as sp
+
+    if not poly:
+        return sp.S.Zero
+    content, found = factors(poly)
+    return content * sp.Mul(*(readable(f) ** m for f, m in found))
 
 
 def _length(poly: PolyElement) -> int:

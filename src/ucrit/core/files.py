@@ -68,7 +68,7 @@ def parse_vehicle(
     """
     try:
         content = tomllib.loads(text)
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:  # ValueError: TOML errors, and numbers of 5000 digits
         raise UcritError(f"{where}: not valid TOML: {error or 'nested too deeply'}") from None
     for key in content:
         if key not in KEYS:

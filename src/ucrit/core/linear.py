@@ -166,25 +166,6 @@ def _domain(expressions: Sequence[Any], bounds: Mapping[Any, Any]) -> tuple[Any,
     return domain, elements, back
 
 
-def _exact_field(entries: Sequence[Any]) -> tuple[Any, list[Any]]:
-    """Return a field of rational functions and the entries in it.
-
-    Functions of one parameter, such as its sine and cosine, count as independent of each other.
-    """
-    field, elements = construct_domain(entries, field=True)
-    if not field.is_EX:
-        return field, elements
-    generators = sorted({g for e in entries for g in _generators(e)}, key=sp.default_sort_key)
-    field = sp.QQ.frac_field(*generators)
-    return field, [field.from_sympy(e) for e in entries]
-
-
-def _generators(expression: Any) -> set[Any]:
-    if expression.is_Symbol or expression.is_Function:
-        return {expression}
-    return {g for argument in expression.args for g in _generators(argument)}
-
-
 def _cleared_row(entries: Row, domain: Any, ring: PolyRing, s: PolyElement) -> list[PolyElement]:
     """Multiply a row by its common denominator and write it in the ring of parameters and ``s``."""
     pairs = [[_fraction(e, domain, ring) for e in chain] for chain in entries]

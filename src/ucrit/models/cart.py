@@ -1,7 +1,7 @@
-"""Axes: x forward, y to the left, fixed to the cart at its centre of mass; r positive counter-clockwise. SI units.
+"""Axes: x forward, y to the left, fixed to the cart's centre of mass; r positive counter-clockwise. SI units.
 
-The fixed rear axle lies b behind the centre of mass. The front casters follow freely, and nothing holds the forward
-velocity: this is the exact motion of a Chaplygin sleigh. U is the forward speed of the basic motion.
+The fixed rear axle lies b behind the centre of mass. The front casters follow freely, and nothing holds the
+forward velocity: this is the exact motion of a Chaplygin sleigh. U is the forward speed of the basic motion.
 """
 
 from ..core import Model, algebraic, param, speed, state

@@ -1,6 +1,7 @@
-"""Axes: X along the floor, Y to the left, fixed to the floor; phi positive counter-clockwise. SI units and radians.
+"""Axes: X along the floor, Y to the left, fixed to the floor; phi positive to the left. SI units and radians.
 
-The centre of mass moves along X with speed U; the fixed rear axle lies b behind it. The front casters follow freely.
+The centre of mass moves along X with speed U; the fixed rear axle lies b behind it. The front casters follow
+freely.
 """
 
 from ..core import Model, coordinate, cos, param, sin, speed

@@ -1,7 +1,7 @@
 """Axes: X along the road, Y to the left; the pivot moves along X with speed U. SI units and radians.
 
-theta is positive when the wheel swings to the left; the wheel touches the road a + b behind the pivot: the trail. The
-motion is that of a trailer on a rigid hitch.
+theta is positive when the wheel swings to the left; the wheel touches the road a + b behind the pivot: the
+trail. The motion is that of a trailer on a rigid hitch.
 """
 
 from ..core import coordinate, param, speed
@@ -12,7 +12,7 @@ class Caster(TrailerRigidHitch):
     """Caster with a vertical pivot that follows a straight line (Karnopp 2004, section 8.II)."""
 
     m: float = param("kg", "mass of the swivelling part", above=0)
-    I_c: float = param("kg m^2", "moment of inertia about the pivot's direction at the centre of mass", above=0)
+    I_c: float = param("kg m^2", "swivel moment of inertia about the centre of mass", above=0)
     a: float = param("m", "pivot to centre of mass, which is behind it", above=0)
     b: float = param("m", "centre of mass to wheel, positive when the wheel is behind", above=0)
     C: float = param("N/rad", "cornering coefficient of the wheel", above=0)

@@ -5,6 +5,6 @@ from .trailer_rigid_tire import TrailerRigidTire
 
 
 class CasterFlexiblePivotRigidTire(CasterFlexiblePivotDamped, TrailerRigidTire):
-    """Caster with a laterally flexible pivot, damped, whose wheel cannot slip sideways (Karnopp 2004, section 8.IV)."""
+    """Caster with a flexible, damped pivot whose wheel cannot slip sideways (Karnopp 2004, section 8.IV)."""
 
     C = None

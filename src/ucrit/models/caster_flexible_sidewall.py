@@ -1,4 +1,4 @@
-"""Axes and signs as in the caster; z is positive when the rim has moved to the left of the tread. SI units and radians.
+"""Axes and signs as in the caster; z is positive when the rim is to the left of the tread. SI units.
 
 The tread's contact patch has no mass: its side force at its own slip angle is the sidewall's force -k_s z.
 """

@@ -1,8 +1,8 @@
 """Axes: X along the road, Y to the left, Z up; the pivot moves along X with speed U. SI units and radians.
 
-The pivot's axis leans back by the rake beta. theta is the angle of turning about it, positive when the wheel swings to
-the left. a and b are distances at right angles to the axis; the trail on the ground is (a + b)/cos(beta). The rise and
-fall of the frame with theta, of second order, is left out.
+The pivot's axis leans back by the rake beta. theta is the angle of turning about it, positive when the wheel
+swings to the left. a and b are distances at right angles to the axis; the trail on the ground is
+(a + b)/cos(beta). The rise and fall of the frame with theta, of second order, is left out.
 """
 
 import math
@@ -15,9 +15,9 @@ from .caster import Caster
 class CasterRaked(Caster):
     """Caster with an inclined pivot that follows a straight line (Karnopp 2004, section 8.III)."""
 
-    a: float = param("m", "pivot's axis to centre of mass, negative when the latter is ahead of the axis")
-    b: float = param("m", "centre of mass to the wheel's contact point, positive when this is behind", above=0)
-    beta: float = param("rad", "rake: angle of the pivot's axis to the vertical", at_least=0, below=math.pi / 2)
+    a: float = param("m", "pivot's axis to centre of mass, negative when this is ahead of it")
+    b: float = param("m", "centre of mass to contact point, which is behind it", above=0)
+    beta: float = param("rad", "angle of the axis to the vertical: rake", at_least=0, below=math.pi / 2)
     C_gamma: float = param("N/rad", "camber thrust coefficient of the wheel", at_least=0)
 
     def wheel_axle(self, x):

@@ -7,7 +7,7 @@ from .caster import Caster
 
 
 class CasterRelaxation(Caster):
-    """Caster whose side force follows the slip angle over a relaxation length (Karnopp 2004, section 8.VI.B)."""
+    """Caster whose side force follows over a relaxation length (Karnopp 2004, section 8.VI.B)."""
 
     sigma: float = param("m", "relaxation length of the tire", above=0)
 

@@ -1,7 +1,7 @@
-"""Axes: x along the track, y to the left; psi positive counter-clockwise seen from above. SI units and radians.
+"""Axes: x along the track, y to the left; psi positive to the left. SI units and radians.
 
-The car body moves straight with speed V; wheelset 1 lies b ahead of the frame's centre, wheelset 2 as far behind.
-f_x acts along, f_y across the rolling direction, for one wheel.
+The car body moves straight with speed V; wheelset 1 lies b ahead of the frame's centre, wheelset 2 as far
+behind. f_x acts along, f_y across the rolling direction, for one wheel.
 """
 
 from ..core import Model, coordinate, cos, param, sin, speed
@@ -9,7 +9,7 @@ from ..parts.creep import contact_velocities, creep_forces
 
 
 class RailTruck(Model):
-    """Two-wheelset truck with lateral and yaw primary suspension, six degrees of freedom (Karnopp 2004, chapter 10)."""
+    """Truck with two wheelsets in lateral and yaw primary suspension (Karnopp 2004, chapter 10)."""
 
     m: float = param("kg", "mass of a wheelset", above=0)
     I: float = param("kg m^2", "yaw moment of inertia of a wheelset", above=0)

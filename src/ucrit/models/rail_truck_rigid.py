@@ -1,7 +1,8 @@
-"""Axes: x along the track, y to the left; psi positive counter-clockwise seen from above. SI units and radians.
+"""Axes: x along the track, y to the left; psi positive to the left. SI units and radians.
 
-The car body moves straight with speed V; the wheelsets lie b ahead of and b behind the truck's centre. f_x acts along,
-f_y across the rolling direction, for one wheel, which carries the load N. R as in the wheelset with gravity.
+The car body moves straight with speed V; the wheelsets lie b ahead of and b behind the truck's centre. f_x
+acts along, f_y across the rolling direction, for one wheel, which carries the load N. R as in the wheelset
+with gravity.
 """
 
 from ..core import Model, coordinate, cos, param, sin, speed
@@ -9,7 +10,7 @@ from ..parts.creep import contact_velocities, creep_forces
 
 
 class RailTruckRigid(Model):
-    """Two-wheelset truck with rigid primary suspension under a car body (Karnopp 2004, problems of chapter 10)."""
+    """Truck that holds two wheelsets rigidly, under a car body (Karnopp 2004, chapter 10, problems)."""
 
     m: float = param("kg", "mass of the truck with its wheelsets", above=0)
     I: float = param("kg m^2", "yaw moment of inertia of the truck with its wheelsets", above=0)

@@ -1,4 +1,4 @@
-"""Axes: x along the track, y to the left; psi positive counter-clockwise seen from above. SI units and radians.
+"""Axes: x along the track, y to the left; psi positive to the left. SI units and radians.
 
 The truck frame moves straight with speed V. f_x acts along, f_y across the rolling direction, for one wheel.
 """

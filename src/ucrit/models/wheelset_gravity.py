@@ -1,8 +1,9 @@
 """Axes and signs as in the wheelset. SI units and radians.
 
-Each wheel carries the load N. Displaced by y, the hollow tread (radius R_t) on the rounder rail head (radius R_r) rises
-on one side by more than it falls on the other, y^2/(2 R) a wheel on the mean with 1/R = 1/(R_t - R_r); yawed by psi, the
-cones touch the rails further out, where they are thinner, and sink by conicity * d psi^2/2.
+Each wheel carries the load N. Displaced by y, the hollow treads on the rounder rail heads rise on one side
+by more than they fall on the other, y^2/(2 R) on the mean; R is the difference of the two profiles' radii.
+Yawed by psi, the cones touch the rails further out, where they are thinner, and sink by
+lambda_ d psi^2/2.
 """
 
 from ..core import param
@@ -10,7 +11,7 @@ from .wheelset import Wheelset
 
 
 class WheelsetGravity(Wheelset):
-    """Wheelset with dampers, whose load rises and falls on the profiles (Karnopp 2004, problems of chapter 10)."""
+    """Wheelset with dampers, whose load moves up and down (Karnopp 2004, chapter 10, problems)."""
 
     N: float = param("N", "vertical load of a wheel", at_least=0)
     R: float = param("m", "radius of the tread's hollow less that of the rail head", above=0)

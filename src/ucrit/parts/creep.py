@@ -1,7 +1,7 @@
 """Creep: the small sliding of rolling steel wheels on steel rails, and the forces that come with it.
 
-Axes: x along the track, y to the left; left wheel first. Velocities of the contact points and forces on the wheels are
-taken along and across the wheelset, which is turned by the yaw angle psi. SI units and radians.
+Axes: x along the track, y to the left; left wheel first. Velocities of the contact points and forces on the
+wheels are taken along and across the wheelset, which is turned by the yaw angle psi. SI units and radians.
 """
 
 from __future__ import annotations
@@ -12,10 +12,10 @@ from ..core.functions import cos, sin
 
 
 def contact_velocities(V: Any, y: Any, psi: Any, dy: Any, dpsi: Any, d: Any, r_0: Any, conicity: Any) -> Any:
-    """Return the velocities (along, across) [m/s] of a wheelset's left and right contact points over the rails.
+    """Return the velocities (along, across) [m/s] of a wheelset's left and right contact points on the rails.
 
-    The wheelset spins at V/r_0; displaced to the left, it rolls on a larger radius there and a smaller one on the
-    right. The contact points are 2 d apart (Karnopp 2004, section 10.II).
+    The wheelset spins at V/r_0; displaced to the left, it rolls on a larger radius there and on a smaller
+    one to the right. The contact points are 2 d apart (Karnopp 2004, section 10.II).
     """
     spin = V / r_0
     forward = V * cos(psi) + dy * sin(psi)
@@ -31,7 +31,7 @@ def creepage(velocity: Any, V: Any) -> Any:
 
 
 def creep_force(f: Any, creepage: Any) -> Any:
-    """Return the force [N] on a wheel for a creep coefficient f [N], linear in the creepage (Kalker's linear theory)."""
+    """Return the force [N] on a wheel for a creep coefficient f [N], linear in the creepage."""
     return -f * creepage
 
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 Array = npt.NDArray[Any]
 
-FAR = 8.0
+FAR = 3.0
 """Roots this many times farther from the origin than those that decide stability do not widen the view."""
 
 ON_AXIS = 1e-9

@@ -57,7 +57,7 @@ def plot_damping(locus: Locus, *, critical: CriticalValues | None = None, figure
             style.tidy(panel)
         _lines(axes, locus, critical, where)
         axes[-1].set_xlabel(labels.axis_label(declared.meaning, locus.parameter, declared.unit))
-        _legend(fig, branches)
+        _legend(fig, branches, critical is not None and bool(critical.stable_ranges()))
     return fig
 
 
@@ -91,7 +91,7 @@ def _rates(axes: Any, branches: Sequence[Branch], where: Array, growth: bool) ->
         axes.set_ylabel("growth rate [1/s]")
         top, bottom = max([*tops, 0.0]), min([*bottoms, 0.0])
         nearest = [b for b in bottoms if b > bottom / 8]
-        bottom = min(nearest) if nearest and top > 0 else bottom
+        bottom = min([*nearest, 0.0]) if nearest and top > 0 else bottom
         margin = 0.1 * (top - bottom) or 1.0
         axes.set_ylim(bottom - margin, top + margin)
     else:
@@ -162,7 +162,7 @@ def _lines(axes: Any, locus: Locus, critical: CriticalValues | None, where: Arra
         )
 
 
-def _legend(fig: Any, branches: Sequence[Branch]) -> None:
+def _legend(fig: Any, branches: Sequence[Branch], shaded: bool) -> None:
     from matplotlib.lines import Line2D
     from matplotlib.patches import Patch
 
@@ -178,7 +178,8 @@ def _legend(fig: Any, branches: Sequence[Branch]) -> None:
         )
         for b in sorted(named.values(), key=lambda b: b.index)
     ]
-    entries.append(Patch(facecolor=style.STABLE, label="stable"))
+    if shaded:
+        entries.append(Patch(facecolor=style.STABLE, label="stable"))
     fig.legend(
         handles=entries,
         loc="outside lower center",

@@ -98,7 +98,7 @@ def number(value: float, digits: int = 4) -> str:
         return NOTHING
     if math.isinf(value):
         return "∞" if value > 0 else MINUS + "∞"
-    text = f"{value:.{digits}g}"
+    text = f"{value + 0.0:.{digits}g}"  # -0.0 + 0.0 is 0.0
     if "e" in text:
         shown = float(text)
         if 1e-3 <= abs(shown) < 1e6:

@@ -13,9 +13,17 @@ if TYPE_CHECKING:
     from ..analyses.modes import Mode
     from ..core.model import Model
 
-RADIUS = 0.34
+RADIUS = 0.28
+PITCH = 0.86
+ROW = 1.12
+"""Radius of a dial, distance of dials and height of a row [in]."""
+
 SMALLEST = 5e-4
 """Amplitudes below this share of the largest of the same unit count as no motion."""
+
+
+ROUNDING = 1e-9
+"""Amplitudes below this share of the mode's largest variable are rounding errors, whatever their unit."""
 
 
 def plot_mode_shapes(modes: Sequence[Mode], vehicle: Model, *, figure: Any = None) -> Any:
@@ -40,37 +48,32 @@ def plot_mode_shapes(modes: Sequence[Mode], vehicle: Model, *, figure: Any = Non
     """
     listed = list(modes)
     names = [name for name in listed[0].shape if "'" not in name]
+    width, height = max(style.WIDTH, PITCH * len(names) + 0.1), ROW * len(listed) + 0.05
     with style.settings():
-        fig = figure or style.new_figure(height=0.45 + 1.02 * len(listed))
+        fig = figure or style.new_figure(width, height)
         axes = fig.subplots()
         for row, mode in enumerate(listed):
-            _row(axes, row, mode, names, vehicle)
-        for column, name in enumerate(names):
-            axes.text(
-                column,
-                -0.62,
-                labels.math_symbol(name),
-                ha="center",
-                va="center",
-                fontsize=11,
-                color=style.INK,
-            )
-        axes.set_aspect("equal")
-        axes.set_xlim(-1.85, max(len(names) - 0.4, 2.6))
-        axes.set_ylim(len(listed) - 0.35, -0.8)
+            _row(axes, ROW * row, mode, names, vehicle)
+        axes.set_aspect("equal", anchor="NW")
+        axes.set_xlim(0, width)
+        axes.set_ylim(height, 0)
         axes.axis("off")
     return fig
 
 
-def _row(axes: Any, row: int, mode: Mode, names: list[str], vehicle: Model) -> None:
-    title = labels.plain(mode.name).replace(" ", "\n", mode.name.count(" ") if len(mode.name) > 18 else 0)
+def _row(axes: Any, top: float, mode: Mode, names: list[str], vehicle: Model) -> None:
     how = f"{labels.number(mode.frequency_hz, 3)} Hz" if mode.oscillates else _time(mode)
-    axes.text(-1.8, row - 0.03, title, ha="left", va="bottom", fontsize=8.5, color=style.INK, linespacing=1.1)
-    axes.text(-1.8, row + 0.06, how, ha="left", va="top", fontsize=8, color=style.MUTED)
+    title = f"{labels.plain(mode.name)}, {how}"
+    axes.text(0.02, top + 0.1, title, ha="left", va="center", fontsize=9, color=style.INK)
     units = {name: _unit(vehicle, name) for name in names}
     for column, name in enumerate(names):
         largest = max(abs(mode.shape[other]) for other in names if units[other] == units[name])
-        _dial(axes, (column, row), mode.shape[name], largest, units[name])
+        centre = (PITCH * (column + 0.5), top + 0.24 + RADIUS)
+        still = abs(mode.shape[name]) < max(SMALLEST * largest, ROUNDING)
+        _dial(axes, centre, 0 if still else mode.shape[name] / largest)
+        text = f"{labels.math_symbol(name)}  {_numbers(mode.shape[name], units[name], still)}"
+        place = (centre[0], centre[1] + RADIUS + 0.03)
+        axes.text(*place, text, ha="center", va="top", fontsize=7.6, color=style.INK, linespacing=1.15)
 
 
 def _unit(vehicle: Model, name: str) -> str:
@@ -81,48 +84,30 @@ def _unit(vehicle: Model, name: str) -> str:
 def _time(mode: Mode) -> str:
     if mode.eigenvalue == 0:
         return "stays where it is"
-    time, word = (
-        (mode.time_to_half, "halves")
-        if math.isfinite(mode.time_to_half)
-        else (mode.time_to_double, "doubles")
-    )
-    return f"{word} in {labels.number(time, 3)} s"
+    if math.isfinite(mode.time_to_half):
+        return f"halves in {labels.number(mode.time_to_half, 3)} s"
+    return f"doubles in {labels.number(mode.time_to_double, 3)} s"
 
 
-def _dial(axes: Any, centre: tuple[float, float], value: complex, largest: float, unit: str) -> None:
+def _dial(axes: Any, centre: tuple[float, float], hand: complex) -> None:
     from matplotlib.patches import Circle
 
     x, y = centre
     axes.add_patch(Circle(centre, RADIUS, facecolor="none", edgecolor=style.GRID, linewidth=0.9))
     axes.plot([x, x + RADIUS], [y, y], color=style.GRID, linewidth=0.6, zorder=1)
-    still = not largest or abs(value) < SMALLEST * largest
-    if still:
+    if not hand:
         axes.plot([x], [y], "o", color=style.MUTED, markersize=3)
-    else:
-        share, phase = abs(value) / largest, cmath.phase(value)
-        tip = (x + RADIUS * share * math.cos(phase), y - RADIUS * share * math.sin(phase))
-        axes.annotate(
-            "",
-            tip,
-            centre,
-            arrowprops={
-                "arrowstyle": "-|>",
-                "color": style.BRANCHES[0],
-                "linewidth": 1.6,
-                "shrinkA": 0,
-                "shrinkB": 0,
-                "mutation_scale": 9,
-            },
-        )
-    axes.text(
-        x,
-        y + RADIUS + 0.05,
-        _numbers(value, unit, still),
-        ha="center",
-        va="top",
-        fontsize=7.6,
-        color=style.INK,
-    )
+        return
+    tip = (x + RADIUS * hand.real, y - RADIUS * hand.imag)
+    arrow = {
+        "arrowstyle": "-|>",
+        "color": style.BRANCHES[0],
+        "linewidth": 1.6,
+        "shrinkA": 0,
+        "shrinkB": 0,
+        "mutation_scale": min(9, 2 + 9 * abs(hand)),
+    }
+    axes.annotate("", tip, centre, arrowprops=arrow)
 
 
 def _numbers(value: complex, unit: str, still: bool) -> str:
@@ -130,4 +115,4 @@ def _numbers(value: complex, unit: str, still: bool) -> str:
         return "0"
     degrees = round(math.degrees(cmath.phase(value)))
     degrees = 180 if degrees == -180 else degrees
-    return f"{labels.quantity(abs(value), unit, 3)}, {labels.number(degrees, 3)}°"
+    return f"{labels.quantity(abs(value), unit, 3)}\n{labels.number(degrees, 3)}°"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def plot_participation(modes: Iterable[Mode], *, figure: Any = None) -> Any:
-    """Draw the share of each state in each mode: the darker a cell, the larger its share; rows add up to 100 %.
+    """Draw the share [%] of each state in each mode, a darker cell for a larger one.
 
     Parameters
     ----------
@@ -48,7 +49,7 @@ def plot_participation(modes: Iterable[Mode], *, figure: Any = None) -> Any:
                     axes.text(
                         column,
                         row,
-                        f"{100 * share:.0f} %",
+                        f"{100 * share:.0f}",
                         ha="center",
                         va="center",
                         fontsize=8.5,
@@ -57,10 +58,16 @@ def plot_participation(modes: Iterable[Mode], *, figure: Any = None) -> Any:
         axes.set_xlim(-0.5, len(states) - 0.5)
         axes.set_ylim(len(listed) - 0.5, -0.5)
         axes.set_xticks(range(len(states)), [labels.math_symbol(state) for state in states], fontsize=10)
-        axes.set_yticks(range(len(listed)), [labels.plain(mode.name) for mode in listed])
+        axes.set_yticks(range(len(listed)), [_wrapped(mode.name) for mode in listed])
         style.tidy(axes, grid=False)
         axes.xaxis.tick_top()
         axes.tick_params(length=0)
         for spine in axes.spines.values():
             spine.set_visible(False)
     return fig
+
+
+def _wrapped(name: str) -> str:
+    """Break a long name in two lines."""
+    lines = textwrap.wrap(name, max(18, 2 + len(name) // 2))
+    return labels.plain("\n".join(lines))

@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 Array = npt.NDArray[Any]
 
+QUIET: dict[str, Any] = {"fontsize": 8.5, "color": style.MUTED}
+
 
 def plot_locus(locus: Locus, *, critical: CriticalValues | None = None, figure: Any = None) -> Any:
     """Draw the upper half of the complex plane with the path of every eigenvalue.
@@ -44,7 +46,8 @@ def plot_locus(locus: Locus, *, critical: CriticalValues | None = None, figure: 
     design = float(locus.vehicle.values[locus.parameter])
     crossings = list(marks(critical, where))
     with style.settings():
-        fig = figure or style.new_figure(height=4.3)
+        flat = not any((np.nan_to_num(branch.values.imag) > 0).any() for branch in branches)
+        fig = figure or style.new_figure(height=2.7 if flat else 4.3)
         axes = fig.subplots()
         box = view(branches, where, [v for v in (design, *(c.value for c in crossings)) if _within(where, v)])
         _frame(axes, box)
@@ -55,6 +58,8 @@ def plot_locus(locus: Locus, *, critical: CriticalValues | None = None, figure: 
             _crossing(axes, branches, where, c, room)
         points = [at(branch, where, design) for branch in branches]
         inside = [p for p in points if not np.isnan(p)]
+        if any(p.real < box[0] for p in inside):
+            axes.text(0.01, 0.985, "more roots farther left", transform=axes.transAxes, va="top", **QUIET)
         if inside:
             axes.plot(
                 [p.real for p in inside],

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from ..core.model import Model
 
 Array = npt.NDArray[Any]
+Point = tuple[float, float]
 
 
 def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any = None) -> Any:
@@ -45,6 +46,7 @@ def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any 
         raise UcritError(f"a map is drawn over two parameters, this one spans {', '.join(names) or 'none'}")
     x, y = (np.asarray(result.coords[name], dtype=float) for name in names)
     stable = np.asarray(result.stable, dtype=bool).T
+    point = None if vehicle is None else _point(vehicle, names, (x, y))
     with style.settings():
         fig = figure or style.new_figure(height=4.0)
         axes = fig.subplots()
@@ -58,9 +60,9 @@ def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any 
                 x, y, stable.astype(float), levels=[0.5], colors=[style.INK], linewidths=1.4, zorder=3
             )
         for flags, word in ((stable, "stable"), (~stable, "unstable")):
-            _name(axes, flags, x, y, word)
-        if vehicle is not None:
-            _design(axes, vehicle, names, (x, y), stable)
+            _name(axes, flags, (x, y), word, point)
+        if point is not None:
+            _design(axes, point, (x, y), stable)
         axes.set_xlim(x.min(), x.max())
         axes.set_ylim(y.min(), y.max())
         axes.set_xlabel(_axis(declared[names[0]]))
@@ -82,19 +84,22 @@ def _ratios(values: Array) -> bool:
     return bool(np.ptp(steps) < 1e-6 * steps[0] and not np.isclose(steps[0], 1, atol=1e-9))
 
 
-def _name(axes: Any, flags: Array, x: Array, y: Array, word: str) -> None:
-    """Write a region's name where it is widest."""
+def _name(axes: Any, flags: Array, grid: tuple[Array, Array], word: str, point: Point | None) -> None:
+    """Write a region's name where it is widest, away from the vehicle."""
     if flags.mean() < 0.02:
         return
-    row, column = _deepest(flags)
+    x, y = grid
+    row, column = _deepest(flags, None if point is None else _cell(point, grid))
     axes.text(x[column], y[row], word, ha="center", va="center", fontsize=10.5, color=style.INK, zorder=4)
 
 
-def _deepest(flags: Array) -> tuple[int, int]:
-    """Cell of a region that is farthest from its border and from the map's, on a coarse copy of it."""
+def _deepest(flags: Array, avoid: tuple[int, int] | None) -> tuple[int, int]:
+    """Cell of a region farthest from its border, the map's and one cell more, on a coarse copy of it."""
     rows = np.linspace(0, flags.shape[0] - 1, 27).astype(int)
     columns = np.linspace(0, flags.shape[1] - 1, 27).astype(int)
     coarse = np.pad(flags[np.ix_(rows, columns)][1:-1, 1:-1], 1)
+    if avoid is not None:
+        coarse[np.abs(rows - avoid[0]).argmin(), np.abs(columns - avoid[1]).argmin()] = False
     inside, outside = np.argwhere(coarse), np.argwhere(~coarse)
     if not len(inside):
         row, column = np.argwhere(flags)[0]
@@ -105,23 +110,30 @@ def _deepest(flags: Array) -> tuple[int, int]:
     return int(rows[row]), int(columns[column])
 
 
-def _design(
-    axes: Any, vehicle: Model, names: tuple[str, ...], grid: tuple[Array, Array], stable: Array
-) -> None:
-    """Mark the vehicle, its name on the side that lies in the same region."""
-    x, y = grid
+def _point(vehicle: Model, names: tuple[str, ...], grid: tuple[Array, Array]) -> Point | None:
+    """The vehicle's place on the map; ``None`` where it lies outside."""
     across, up = (float(vehicle.values[name]) for name in names)
-    if not (x.min() <= across <= x.max() and y.min() <= up <= y.max()):
-        return
-    axes.plot([across], [up], "D", color=style.INK, markersize=6.5, zorder=6, gid="design")
-    row, column = int(np.searchsorted(y, up)), int(np.searchsorted(x, across))
-    reach = max(1, y.size // 12)
-    above = bool(stable[min(row + reach, y.size - 1), column] == stable[min(row, y.size - 1), column])
-    right = column > 0.75 * x.size
+    x, y = grid
+    inside = x.min() <= across <= x.max() and y.min() <= up <= y.max()
+    return (across, up) if inside else None
+
+
+def _cell(point: Point, grid: tuple[Array, Array]) -> tuple[int, int]:
+    """Row and column of the cell nearest to a point."""
+    return int(np.abs(grid[1] - point[1]).argmin()), int(np.abs(grid[0] - point[0]).argmin())
+
+
+def _design(axes: Any, point: Point, grid: tuple[Array, Array], stable: Array) -> None:
+    """Mark the vehicle, its name on the side that lies in the same region."""
+    axes.plot([point[0]], [point[1]], "D", color=style.INK, markersize=6.5, zorder=6, gid="design")
+    row, column = _cell(point, grid)
+    reach = max(1, stable.shape[0] // 12)
+    above = bool(stable[min(row + reach, stable.shape[0] - 1), column] == stable[row, column])
+    right = column > 0.75 * stable.shape[1]
     style.label(
         axes,
         "this vehicle",
-        (across, up),
+        point,
         xytext=(-9 if right else 9, 7 if above else -13),
         textcoords="offset points",
         ha="right" if right else "left",

@@ -120,8 +120,8 @@ def _polynomial(described: ModelDescription) -> Step:
     )
     text = Markup(
         "A motion that goes as exp({} t) is possible where the determinant of the matrices, each times its "
-        "power of {}, vanishes. Freed of denominators and common factors it is the characteristic polynomial, the "
-        "sum of {} with"
+        "power of {}, vanishes. Freed of denominators and common factors it is the characteristic "
+        "polynomial, the sum of {} with"
     )
     return Step(
         text.format(s, s, term),

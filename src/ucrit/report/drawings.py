@@ -97,12 +97,18 @@ def of_map(analysis: Analysis, asked: Sequence[str] | None, path: Locus | None) 
     )
     return Drawing(
         svg(plot_map(result, vehicle=analysis.vehicle), "map", description),
-        Markup("Stability over {} and {}, all other parameters as they are.{}").format(
+        Markup("Stability over {} and {}, all other parameters as they are.{}{}").format(
             formulas.symbol(across),
             formulas.symbol(up),
+            _uniform(result.share),
             "" if _speed(analysis) in names else _at_speed(analysis),
         ),
     )
+
+
+def _uniform(share: float) -> str:
+    """Say so where a map has one colour only."""
+    return {0.0: " All of it is unstable.", 1.0: " All of it is stable."}.get(share, "")
 
 
 def _speed(analysis: Analysis) -> str | None:
@@ -145,13 +151,13 @@ def of_modes(analysis: Analysis) -> list[Drawing]:
                 "shapes",
                 f"Dials of amplitude and phase of each variable in {names}.",
             ),
-            "Shape of each mode: a hand's length is the amplitude, its direction the phase, counter-clockwise "
-            "ahead in time. Lengths compare variables of one unit; numbers are for 1 of the largest.",
+            "Shape of each mode: a hand's length is the amplitude, its direction the phase: counter-clockwise "
+            "is ahead. Lengths compare variables of one unit; numbers are for 1 of the largest.",
         ),
         Drawing(
             svg(
                 plot_participation(analysis.modes), "participation", f"Participation of the states. {shares}."
             ),
-            "Share of each state in each mode; a row adds up to 100 %.",
+            "Share of each state in each mode [%]; a row adds up to 100.",
         ),
     ]

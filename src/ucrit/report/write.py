@@ -35,8 +35,8 @@ def write_report(
     path
         File to write.
     map_parameters
-        The two parameters of the stability map; by default the speed and the parameter whose change helps most,
-        or the two that help most.
+        The two parameters of the stability map; by default the speed and the parameter whose change helps
+        most, or the two that help most.
     command
         How the page was made, to be printed on it.
 

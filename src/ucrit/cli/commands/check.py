@@ -59,5 +59,5 @@ def _refuse_unreadable(path: str) -> None:
 
     try:
         tomllib.loads(read_text(Path(path)))
-    except (tomllib.TOMLDecodeError, RecursionError) as error:
+    except (ValueError, RecursionError) as error:
         raise UcritError(f"{path}: not valid TOML: {error}") from None

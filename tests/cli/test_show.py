@@ -1,0 +1,70 @@
+"""Descriptions of models: formulas in three notations that say the same as the equations."""
+
+from __future__ import annotations
+
+import xml.etree.ElementTree as ET
+from html import unescape
+
+import numpy as np
+import pytest
+import sympy as sp
+
+from ucrit import show
+from ucrit.catalogue import find_model, load
+from ucrit.core.compiled import coefficients
+from ucrit.core.derive import symbolic
+from ucrit.core.errors import UcritError
+
+MODELS = ["car", "trailer", "caster", "trailer-kinematic", "wheelset-kinematic", "cart-inertial"]
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_tidied_equations_are_the_stated_ones(name: str) -> None:
+    traced = symbolic(find_model(name)).traced
+    symbols = [*traced.parameters.values(), *traced.u, *(s for chain in traced.q for s in chain)]
+    rng = np.random.default_rng(7)
+    values = {
+        s: sp.Float(str(round(float(v), 6)), 30)
+        for s, v in zip(symbols, rng.uniform(0.2, 1, len(symbols)), strict=True)
+    }
+    primed = {s.name: sp.Symbol(s.name.replace("'", "_dot")) for s in symbols}
+    for stated, formula in zip(traced.residuals, show(name).equations, strict=True):
+        text = formula.text.replace("'", "_dot")
+        read = sp.sympify(text, locals={s.name: s for s in primed.values()})
+        swapped = read.subs({primed[s.name]: v for s, v in values.items()})
+        assert abs(sp.N(swapped - stated.subs(values), 20)) < 1e-15
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_mathml_is_well_formed_and_without_names_of_greek_letters(name: str) -> None:
+    for formula in show(name).equations:
+        text = unescape(formula.mathml.replace("&InvisibleTimes;", "*").replace("&ApplyFunction;", ""))
+        ET.fromstring(f"<math>{text}</math>")
+        assert "theta" not in text
+        assert "Zz" not in text + formula.latex
+        assert "'" not in formula.latex
+
+
+def test_polynomial_is_that_of_the_compiled_model() -> None:
+    vehicle = load("caravan")
+    names = {k: float(v) for k, v in vehicle.values.items()}
+    symbols = {k: sp.Symbol(k) for k in names}
+    for formula, value in zip(show("trailer").polynomial, coefficients(vehicle), strict=True):
+        read = sp.sympify(formula.text, locals=symbols).subs({symbols[k]: v for k, v in names.items()})
+        assert float(read) == pytest.approx(float(value), rel=1e-12)
+
+
+def test_accepts_classes_vehicles_and_names() -> None:
+    model = find_model("trailer")
+    assert show(model).vehicle is None
+    assert show(load("caravan")).vehicle == load("caravan")
+    assert show("caravan").model == show("trailer").model == "trailer"
+    with pytest.raises(UcritError, match="did you mean 'trailer'"):
+        show("trialer")
+
+
+def test_shows_in_a_notebook() -> None:
+    found = show("trailer")
+    assert "<math" in found._repr_html_()
+    assert found.equations[0]._repr_latex_().startswith("$")
+    assert "hitch to centre of mass" in str(found)
