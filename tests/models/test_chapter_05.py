@@ -35,7 +35,9 @@ def test_steering_cannot_stabilise_a_trailer_that_backs_up():
 
 
 def test_more_gain_gives_more_damping():
-    ratios = [next(iter(modes(load("caravan-active-steering", {"g": g})))).damping_ratio for g in (0, 0.1, 0.2)]
+    ratios = [
+        next(iter(modes(load("caravan-active-steering", {"g": g})))).damping_ratio for g in (0, 0.1, 0.2)
+    ]
     assert ratios[0] < ratios[1] < ratios[2]
 
 
@@ -48,7 +50,9 @@ def test_critical_speed_of_a_gain_of_the_wrong_sign(seed):
 
 
 def test_in_a_steady_turn_the_gain_pushes_the_wheels_further_out():
-    angles = [transfer(load("caravan-active-steering", {"g": g}), "omega", "theta").static_gain for g in (0, 0.2)]
+    angles = [
+        transfer(load("caravan-active-steering", {"g": g}), "omega", "theta").static_gain for g in (0, 0.2)
+    ]
     trailer = load("caravan-active-steering")
     assert angles[1] - angles[0] == pytest.approx(-trailer.g, rel=1e-12)
     plain = trailer.m * trailer.a * trailer.U / (trailer.C * 4) - 4 / trailer.U
@@ -65,7 +69,10 @@ def test_without_gain_it_is_the_trailer_on_a_rigid_hitch():
 @pytest.mark.parametrize("name", ["trailer", "trailer-rigid-hitch"])
 def test_newton_gives_what_lagrange_gives(name):
     model = find_model(name)
-    lagrange, newton = linear_system(model).polynomial, linear_system(model, method="equations_newton").polynomial
+    lagrange, newton = (
+        linear_system(model).polynomial,
+        linear_system(model, method="equations_newton").polynomial,
+    )
     assert lagrange.expressions == newton.expressions
 
 
@@ -96,9 +103,9 @@ def test_static_stability_of_a_trailer_on_a_flexible_hitch_does_not_decide():
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_stiffness_at_which_a_short_trailer_with_soft_tires_gains_stability(seed):
-    trailer = varied(load("caravan-undamped-hitch", {"a": 1.0, "b": 0.5}), seed)
+    trailer = varied(load("caravan-undamped-hitch", {"a": 1.0, "b": 0.25}), seed)
     m, I, a, b, C = (trailer.values[name] for name in ("m", "I_c", "a", "b", "C"))
-    assert m * a * b < I
+    assert m * a * b < I, "the case that stiffness can make stable"
     found = critical(trailer, "k")
     assert [c.stable for c in found] == ["above"]
     k = C * (I + m * b**2) / ((a + b) * (I - m * a * b))
@@ -108,8 +115,10 @@ def test_stiffness_at_which_a_short_trailer_with_soft_tires_gains_stability(seed
 
 def test_criterion_of_the_full_fourth_order():
     (condition,) = criteria(find_model("trailer-undamped-hitch"))
-    m, I, a, b, C, k = (symbolic(find_model("trailer-undamped-hitch")).traced.parameters[n] for n in
-                        ("m", "I_c", "a", "b", "C", "k"))
+    m, I, a, b, C, k = (
+        symbolic(find_model("trailer-undamped-hitch")).traced.parameters[n]
+        for n in ("m", "I_c", "a", "b", "C", "k")
+    )
     names = {s.name: s for s in (m, I, a, b, C, k)}
     book = (m * a * b - I) * (C * (I + m * b**2) + k * (a + b) * (m * a * b - I))
     assert sp.expand(sp.sympify(condition.expression, locals=names) - book) == 0

@@ -125,7 +125,9 @@ def test_free_and_fixed_control_are_one_vehicle():
         assert sp.expand(left - expected.xreplace(swap).xreplace(inertia)) == 0
     released = load("released-steering-wheel").with_(k_s=1e9)
     slow = modes(released).eigenvalues[np.argsort(np.abs(modes(released).eigenvalues))[:2]]
-    assert np.sort_complex(slow) == pytest.approx(np.sort_complex(modes(load("understeering-car")).eigenvalues), rel=1e-4)
+    assert np.sort_complex(slow) == pytest.approx(
+        np.sort_complex(modes(load("understeering-car")).eigenvalues), rel=1e-4
+    )
 
 
 @pytest.mark.parametrize("seed", SEEDS)
@@ -197,7 +199,10 @@ def test_divergence_of_car_and_trailer(seed):
 
 
 def test_further_derivations_agree_in_symbols():
-    for name, method in (("car-inertial", "equations_newton"), ("car-free-control", "equations_two_bodies"),
-                         ("car-trailer", "equations_virtual_power")):
+    for name, method in (
+        ("car-inertial", "equations_newton"),
+        ("car-free-control", "equations_two_bodies"),
+        ("car-trailer", "equations_virtual_power"),
+    ):
         first, second = linear_system(find_model(name)), linear_system(find_model(name), method=method)
         assert first.polynomial.expressions == second.polynomial.expressions

@@ -10,7 +10,7 @@ import sympy as sp
 
 from ..core import typeset as to
 from ..core.derive import symbolic
-from ..core.factor import readable
+from ..core.factor import factored
 from ..core.linear import LinearSystem
 from ..core.model import Model
 from ..core.trace import Traced
@@ -21,12 +21,13 @@ DOTS = {1: ("\\dot", "&#729;"), 2: ("\\ddot", "&#168;")}
 def derive(model: type[Model], sense: int) -> dict[str, Any]:
     """Return equations of motion, linear matrices and characteristic polynomial in text, LaTeX and MathML."""
     system = symbolic(model, sense)
+    functions = dict(system.polynomial.functions)
     return {
         "equations": [_motion(_tidied(r, system.traced), system.traced) for r in system.traced.residuals],
         "unknowns": [chain[0].name for chain in system.traced.q],
         "P": [_matrix(M) for M in _matrices(system)],
         "Q": _matrix(system.Q),
-        "polynomial": [_plain(readable(a)) for a in system.polynomial.coefficients],
+        "polynomial": [_plain(factored(a).xreplace(functions)) for a in system.polynomial.coefficients],
     }
 
 

@@ -1,4 +1,4 @@
-"""Conditions that others imply: sums that are never negative and vanish only where another condition fails."""
+"""Conditions that others imply: sums never negative that vanish only where another condition fails."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
-"""What a model becomes when parameters grow without bound or vanish: rigid tires, a stiff hitch, no relaxation length.
+"""What a model becomes when parameters grow without bound or vanish: rigid tires, a stiff hitch, no
+relaxation length.
 
-One symbolic operation on the characteristic polynomial gives the model of lower order, its criteria and the roots that
-are lost; whether leaving those out is harmless is told too.
+One symbolic operation on the characteristic polynomial gives the model of lower order, its criteria and the
+roots that are lost; whether leaving those out is harmless is told too.
 """
 
 from __future__ import annotations
@@ -23,6 +24,7 @@ from ..core.limits import check_names, limit_polynomial
 from ..core.model import Model
 from .criteria import Boundary, Criteria, Criterion
 
+
 @dataclass(frozen=True)
 class LostRoots:
     """Roots that do not stay finite, or go to zero, in a limit.
@@ -38,8 +40,8 @@ class LostRoots:
     fast
         Whether they go to infinity; to zero otherwise.
     stable
-        ``True``: they decay; ``False``: at least one grows; ``None``: that depends on the parameters, or they are
-        undamped to leading order.
+        ``True``: they decay; ``False``: at least one grows; ``None``: that depends on the parameters, or
+        they are undamped to leading order.
     criteria
         The conditions for their decay.
     """
@@ -58,7 +60,9 @@ class LostRoots:
         if self.criteria.kind == "neutral" and self.stable is None:
             how = "undamped to leading order"
         else:
-            how = {True: "decaying", False: "growing", None: "decaying under conditions of their own"}[self.stable]
+            how = {True: "decaying", False: "growing", None: "decaying under conditions of their own"}[
+                self.stable
+            ]
         return f"{number} to {where} like {like}, {how}"
 
 
@@ -155,28 +159,43 @@ def limit(model: type[Model] | Model, *, direction: int | None = None, **to: flo
     cls = model if isinstance(model, type) else type(model)
     sense = direction or (1 if isinstance(model, type) else direction_of(model))
     if not to:
-        raise UcritError(f"{cls.model_id()}: name the parameters that go to infinity or 0, such as C=math.inf")
+        raise UcritError(
+            f"{cls.model_id()}: name the parameters that go to infinity or 0, such as C=math.inf"
+        )
     check_names(cls, to)
     for name, value in to.items():
         if value not in (math.inf, 0):
             raise UcritError(f"{cls.model_id()}: the limit of {name} must be infinity or 0, got {value!r}")
     piece = f"limit{sense:+d}" + "".join(f"-{name}{'inf' if value else '0'}" for name, value in to.items())
     facts = cached(cls, piece, lambda: _derive(cls, sense, to))
-    lost = tuple(LostRoots(**{**entry, "criteria": _criteria(cls, entry["criteria"])}) for entry in facts["lost"])
+    lost = tuple(
+        LostRoots(**{**entry, "criteria": _criteria(cls, entry["criteria"])}) for entry in facts["lost"]
+    )
     return LimitResult(
-        cls.model_id(), dict(to), tuple(facts["polynomial"]), facts["text"], facts["latex"], facts["mathml"],
-        _criteria(cls, facts["criteria"]), lost, facts["order_matters"], facts["source"], tuple(facts["parameters"]),
+        cls.model_id(),
+        dict(to),
+        tuple(facts["polynomial"]),
+        facts["text"],
+        facts["latex"],
+        facts["mathml"],
+        _criteria(cls, facts["criteria"]),
+        lost,
+        facts["order_matters"],
+        facts["source"],
+        tuple(facts["parameters"]),
     )
 
 
 def _criteria(cls: type[Model], facts: dict[str, Any]) -> Criteria:
     found = tuple(
-        Criterion(**{
-            **c,
-            "dropped": tuple(c["dropped"]),
-            "parameters": tuple(c["parameters"]),
-            "boundaries": tuple(Boundary(**b) for b in c["boundaries"]),
-        })
+        Criterion(
+            **{
+                **c,
+                "dropped": tuple(c["dropped"]),
+                "parameters": tuple(c["parameters"]),
+                "boundaries": tuple(Boundary(**b) for b in c["boundaries"]),
+            }
+        )
         for c in facts["conditions"]
     )
     return Criteria(cls.model_id(), found, facts["kind"], facts["settled"], facts["zeros"], facts["order"])
@@ -192,18 +211,27 @@ def _derive(cls: type[Model], direction: int, to: dict[str, float]) -> dict[str,
     system = symbolic(cls, direction)
     parameters = list(system.traced.parameters.values())
     polynomial, escapes = limit_polynomial(system, to)
-    orders = [limit_polynomial(system, dict(order))[0] for order in permutations(to.items())] if len(to) < 4 else []
+    orders = (
+        [limit_polynomial(system, dict(order))[0] for order in permutations(to.items())]
+        if len(to) < 4
+        else []
+    )
     left = [product(a, polynomial.functions) for a in polynomial.coefficients]
     lost = []
     for escape in escapes:
         found = conditions(escape.polynomial, parameters, cls.model_id())
         neutral = found["kind"] == "neutral" and found["settled"] is not False
         stable = None if neutral else found["settled"]
-        lost.append({
-            "parameter": escape.parameter, "count": escape.count,
-            "power": float(escape.power) * (1 if to[escape.parameter] else -1), "fast": escape.power > 0,
-            "stable": stable, "criteria": found,
-        })
+        lost.append(
+            {
+                "parameter": escape.parameter,
+                "count": escape.count,
+                "power": float(escape.power) * (1 if to[escape.parameter] else -1),
+                "fast": escape.power > 0,
+                "stable": stable,
+                "criteria": found,
+            }
+        )
     return {
         "polynomial": [typeset.text(a) for a in left],
         **in_s(left),

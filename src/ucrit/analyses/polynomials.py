@@ -10,14 +10,9 @@ Texts = dict[str, str]
 
 def product(polynomial: Any, functions: Mapping[Any, Any]) -> Any:
     """Return a polynomial in the parameters as an expression, split into its factors."""
-    import sympy as sp
+    from ..core.factor import factored
 
-    from ..core.factor import factors, readable
-
-    if not polynomial:
-        return sp.S.Zero
-    content, found = factors(polynomial)
-    return (content * sp.Mul(*(readable(f) ** m for f, m in found))).xreplace(dict(functions))
+    return factored(polynomial).xreplace(dict(functions))
 
 
 def in_s(coefficients: Sequence[Any]) -> Texts:
@@ -33,8 +28,16 @@ def in_s(coefficients: Sequence[Any]) -> Texts:
         sign = "-" if negative else "+"
         one = size == 1 and k > 0
         plain = "" if one else f"({typeset.text(size)})" if size.is_Add and k else typeset.text(size)
-        texts.append((sign, plain + ("*" if plain and k else "") + ("" if not k else "s" if k == 1 else f"s**{k}")))
-        inner = "" if one else rf"\left({typeset.latex(size)}\right)" if size.is_Add and k else typeset.latex(size)
+        texts.append(
+            (sign, plain + ("*" if plain and k else "") + ("" if not k else "s" if k == 1 else f"s**{k}"))
+        )
+        inner = (
+            ""
+            if one
+            else rf"\left({typeset.latex(size)}\right)"
+            if size.is_Add and k
+            else typeset.latex(size)
+        )
         latexs.append((sign, inner + ("" if not k else " s" if k == 1 else f" s^{{{k}}}")))
         power = "" if not k else "<mi>s</mi>" if k == 1 else f"<msup><mi>s</mi><mn>{k}</mn></msup>"
         body = "" if one else typeset.mathml(size)
@@ -56,12 +59,12 @@ def _joined(terms: list[tuple[str, str]], space: str, plus: str) -> str:
 
 
 def factored_in_s(polynomial: Any, functions: Mapping[Any, Any]) -> Texts:
-    """Return a polynomial in parameters and s (its ring's last generator), factored, as text, LaTeX and MathML."""
+    """Return a polynomial in parameters and s, the ring's last generator, factored, ready to be shown."""
     import sympy as sp
 
-    from ..core.cramer import factored
+    from ..core.cramer import split_in_s
 
-    content, found = factored(polynomial)
+    content, found = split_in_s(polynomial)
     constant = sp.Integer(content)
     pieces: list[tuple[Texts, int, bool]] = []
     for coefficients, multiplicity in found:
@@ -78,7 +81,9 @@ def factored_in_s(polynomial: Any, functions: Mapping[Any, Any]) -> Texts:
     result = {key: "" if constant == 1 else "-" if constant == -1 else head[key] for key in head}
     for texts, m, several in pieces:
         body = f"({texts['text']})" if several else texts["text"]
-        result["text"] += ("*" if result["text"] not in ("", "-") else "") + body + (f"**{m}" if m > 1 else "")
+        result["text"] += (
+            ("*" if result["text"] not in ("", "-") else "") + body + (f"**{m}" if m > 1 else "")
+        )
         inner = rf"\left({texts['latex']}\right)" if several else texts["latex"]
         result["latex"] += " " + inner + (f"^{{{m}}}" if m > 1 else "")
         row = f"<mrow><mo>(</mo>{texts['mathml']}<mo>)</mo></mrow>" if several else texts["mathml"]

@@ -27,8 +27,9 @@ def parse_range(text: str, unit: str = "1", thing: str = "range") -> Array:
     """Return the values of a range in coherent SI units.
 
     ``"5:40"`` is 100 evenly spaced points, ``"5:40:36"`` 36 of them, ``"1e3:1e6:50:log"`` 50 points with one
-    ratio between neighbours, ``"1, 2, 5"`` a list. A unit belongs to all numbers before it back to the unit before:
-    ``"20:130 km/h"``, ``"20:130:12 km/h"``, ``"500 kg, 1, 2 t"``. Without any unit numbers are SI.
+    ratio between neighbours, ``"1, 2, 5"`` a list. A unit belongs to all numbers before it, back to the
+    unit before: ``"20:130 km/h"``, ``"20:130:12 km/h"``, ``"500 kg, 1, 2 t"``. Without any unit
+    numbers are SI.
 
     Parameters
     ----------

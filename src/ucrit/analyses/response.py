@@ -1,4 +1,4 @@
-"""How a linear vehicle answers its inputs: frequency response, and responses in time to a step and an impulse."""
+"""How a linear vehicle answers its inputs: over frequencies, and in time to a step and an impulse."""
 
 from __future__ import annotations
 
@@ -103,7 +103,12 @@ def frequency_response(
 
 
 def step_response(
-    vehicle: Model, input: str, outputs: str | Sequence[str] | None = None, times: Any = None, *, size: float = 1.0
+    vehicle: Model,
+    input: str,
+    outputs: str | Sequence[str] | None = None,
+    times: Any = None,
+    *,
+    size: float = 1.0,
 ) -> TimeResponse:
     """Return the response in time of outputs to a step of one input at time 0.
 
@@ -141,9 +146,15 @@ def step_response(
 
 
 def impulse_response(
-    vehicle: Model, input: str, outputs: str | Sequence[str] | None = None, times: Any = None, *, size: float = 1.0
+    vehicle: Model,
+    input: str,
+    outputs: str | Sequence[str] | None = None,
+    times: Any = None,
+    *,
+    size: float = 1.0,
 ) -> TimeResponse:
-    """Return the response in time of outputs to an impulse of one input at time 0, of ``size`` in input unit times s.
+    """Return the response in time of outputs to an impulse of one input at time 0, of ``size`` in input unit
+    times s.
 
     Arguments, result and errors are those of `step_response`.
 
@@ -176,7 +187,16 @@ def _in_time(vehicle: Model, input: str, outputs: Any, times: Any, size: float, 
     final = _final(chosen) if kind == "step" else np.where((chosen.growth < 0)[..., None], 0.0, np.nan)
     final = np.broadcast_to(final, chosen.D.shape)
     return TimeResponse(
-        vehicle, input, chosen.outputs, chosen.units, kind, size, t, size * values, size * direct, size * final
+        vehicle,
+        input,
+        chosen.outputs,
+        chosen.units,
+        kind,
+        size,
+        t,
+        size * values,
+        size * direct,
+        size * final,
     )
 
 

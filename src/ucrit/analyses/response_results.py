@@ -1,4 +1,4 @@
-"""What responses to an input are: complex over frequencies, real over times, with vehicle, names and units."""
+"""What responses are: complex over frequencies, real over times, with vehicle, names and units."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Array = npt.NDArray[Any]
 
 @dataclass(frozen=True)
 class _Response(Tabular):
-    """What all responses have: leading dimensions of ``values`` are the vehicle's, then the axis, then outputs."""
+    """What all responses have; dimensions of ``values`` are the vehicle's, then the axis, then outputs."""
 
     vehicle: Model
     input: str
@@ -38,9 +38,13 @@ class _Response(Tabular):
 
     def table(self) -> Table:
         """Return the response of each output over the axis, with units."""
-        coords = [Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.vehicle.dims.items()]
+        coords = [
+            Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.vehicle.dims.items()
+        ]
         axis = self._axis
-        return Table(self._title, self.vehicle, (*coords, axis), self._series(), (*self.vehicle.dims, axis.name))
+        return Table(
+            self._title, self.vehicle, (*coords, axis), self._series(), (*self.vehicle.dims, axis.name)
+        )
 
     @property
     def _title(self) -> str:
@@ -137,7 +141,7 @@ class TimeResponse(_Response):
         return np.asarray(self.values[..., self._place(output)])
 
     def overshoot(self, output: str) -> Array:
-        """Return by how much a step response exceeds its final value at most, as a share of it, shape (...)."""
+        """Return the largest excess of a step response, as a share of its final value, shape (...)."""
         final = self.final[..., self._place(output)]
         with np.errstate(all="ignore"):
             return np.asarray(np.maximum((self[output] / final[..., None]).max(axis=-1) - 1, 0))
@@ -155,7 +159,9 @@ class TimeResponse(_Response):
 
     def _series(self) -> tuple[Series, ...]:
         dims = (*self.vehicle.dims, "time")
-        return tuple(Series(name, dims, self[name], unit) for name, unit in zip(self.outputs, self.units, strict=True))
+        return tuple(
+            Series(name, dims, self[name], unit) for name, unit in zip(self.outputs, self.units, strict=True)
+        )
 
     @property
     def _title(self) -> str:

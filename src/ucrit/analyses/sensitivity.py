@@ -63,9 +63,9 @@ class Sensitivity(Tabular):
     eigenvalues
         Shape (..., n) [1/s], least stable first.
     slopes
-        By parameter p, shape (..., n): d(eigenvalue)/dp [1/s per unit of p], complex; nan where the eigenvalue
-        is repeated (closer than 1e-7 of the largest to another) or so ill-conditioned that rounding may
-        spoil it.
+        By parameter p, shape (..., n): d(eigenvalue)/dp [1/s per unit of p], complex; nan where the
+        eigenvalue is repeated (closer than 1e-7 of the largest to another) or so ill-conditioned that
+        rounding may spoil it.
     growth
         By parameter, shape (...): derivative of the largest real part [1/s per unit of p], nan as above.
     critical

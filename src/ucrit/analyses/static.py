@@ -1,7 +1,8 @@
 """Static stability: does a vehicle that is held at an angle start to turn back when it is let go?
 
-A static analysis looks at one moment only. It leaves out the velocities that the motion brings about, so that a car that
-is statically unstable (oversteering) runs stably below its critical speed (Karnopp 2004, section 9.V).
+A static analysis looks at one moment only. It leaves out the velocities that the motion brings about, so
+that a car that is statically unstable (oversteering) runs stably below its critical speed (Karnopp 2004,
+section 9.V).
 """
 
 from __future__ import annotations
@@ -58,13 +59,13 @@ class StaticStability:
         formula = f" = {self.formula}" if self.formula else ""
         lines = [
             f"{name}: statically {word}",
-            f"    held at {self.displaced} and let go: {self.answer}/{self.displaced}{formula} = {self.slope:.5g}",
+            f"    let go at {self.displaced}: {self.answer}/{self.displaced}{formula} = {self.slope:.5g}",
             f"    dynamically {'stable' if self.dynamic else 'unstable'} at the present parameters",
         ]
         if self.critical_speeds:
             lines.append("    which changes at " + ", ".join(f"{U:.5g} m/s" for U in self.critical_speeds))
         if not self.decides:
-            lines.append("    the static answer does not decide: it leaves out the velocities that the motion brings about")
+            lines.append("    the static answer does not decide: it leaves out the velocities that follow")
         return "\n".join(lines)
 
 
@@ -74,8 +75,8 @@ def static_stability(vehicle: Model, displaced: str | None = None) -> StaticStab
     Parameters
     ----------
     vehicle
-        With scalar parameters: a model in body-fixed axes with a lateral velocity V [m/s] and a yaw rate r [rad/s],
-        or one with an angle among its variables.
+        With scalar parameters: a model in body-fixed axes with a lateral velocity V [m/s] and a yaw rate r
+        [rad/s], or one with an angle among its variables.
     displaced
         ``"V"`` (a sideslip) or the name of an angle; by default V, else the first angle.
 
@@ -100,14 +101,18 @@ def static_stability(vehicle: Model, displaced: str | None = None) -> StaticStab
     angles = [name for name, v in declared.variables.items() if v.unit == "rad"]
     choices = (["V"] if body_fixed else []) + angles
     if not choices:
-        raise UcritError(f"{cls.model_id()}: static stability needs V [m/s] and r [rad/s], or an angle, among the variables")
+        raise UcritError(
+            f"{cls.model_id()}: static stability needs the variables V [m/s] and r [rad/s], or an angle"
+        )
     name = displaced or choices[0]
     if name not in choices:
         raise UcritError(f"{cls.model_id()}: '{name}' cannot be displaced{near_match(name, choices)}")
     turning = "r" if name == "V" else name
     answer, slope, direct = _answer(vehicle, name, turning)
     sense = direction(vehicle)
-    formula = cached(cls, f"static{sense:+d}-{name}", lambda: _derive(cls, sense, name, turning)) if direct else ""
+    formula = (
+        cached(cls, f"static{sense:+d}-{name}", lambda: _derive(cls, sense, name, turning)) if direct else ""
+    )
     stable = slope > 0 if name == "V" else slope < 0
     speeds = tuple(c.value for c in critical(vehicle)) if declared.speed else ()
     return StaticStability(vehicle, name, answer, slope, formula, stable, verdict(vehicle).stable, speeds)
@@ -117,7 +122,9 @@ def _answer(vehicle: Model, name: str, turning: str) -> tuple[str, float, bool]:
     """Return what answers, its slope, and whether it is the turning variable's own highest derivative."""
     states, A = list(labels(vehicle)), state_space(vehicle).A
     if name not in states:
-        raise UcritError(f"{type(vehicle).model_id()}: {name} is tied to the other variables and cannot be displaced alone")
+        raise UcritError(
+            f"{type(vehicle).model_id()}: {name} is tied to the other variables and cannot be displaced alone"
+        )
     column = states.index(name)
     chain = [i for i, label in enumerate(states) if label.rstrip("'") == turning]
     slope = float(A[chain[-1], column])
@@ -129,7 +136,9 @@ def _answer(vehicle: Model, name: str, turning: str) -> tuple[str, float, bool]:
 
 def _derive(cls: type[Model], direction: int, name: str, turning: str) -> str:
     """Solve the explicit equations for one highest derivative per unit of one state."""
+    from sympy import ZZ, Dummy
     from sympy.polys.matrices import DomainMatrix
+    from sympy.polys.rings import PolyRing
 
     from ..core import linear, typeset
     from ..core.derive import symbolic
@@ -145,6 +154,6 @@ def _derive(cls: type[Model], direction: int, name: str, turning: str) -> str:
     L = DomainMatrix([elements[i * n : (i + 1) * n] for i in range(n)], (n, n), domain)
     rhs = DomainMatrix([[c] for c in elements[n * n :]], (n, 1), domain)
     found = L.lu_solve(rhs).to_list()[variables.index(turning)][0]
-    ring = linear.PolyRing((*domain.symbols, linear.sp.Dummy("s")), linear.sp.ZZ, "lex")
+    ring = PolyRing((*domain.symbols, Dummy("s")), ZZ, "lex")
     top, bottom = linear._fraction(found, domain, ring)
     return typeset.text(sign_inside(readable_ratio(top, bottom).xreplace(functions)))

@@ -1,8 +1,9 @@
 """Steady turns of cars: understeer gradient, characteristic or critical speed, and gains against speed.
 
-In a steady turn the linear equations lose their rates, and the steer angle for a turn of radius R at speed U is
-``delta = L/R + K U**2/R`` (Karnopp 2004, section 6.V): L the effective wheelbase, K the understeer gradient. Both are
-read off the static gain of the transfer function from steer angle to yaw rate, whatever the model.
+In a steady turn the linear equations lose their rates, and the steer angle for a turn of radius R at speed U
+is
+``delta = L/R + K U**2/R`` (Karnopp 2004, section 6.V): L the effective wheelbase, K the understeer gradient.
+Both are read off the static gain of the transfer function from steer angle to yaw rate, whatever the model.
 """
 
 from __future__ import annotations
@@ -90,7 +91,7 @@ class SteadyTurn:
 
     @property
     def characteristic_speed(self) -> Any:
-        """Speed [m/s] at which an understeering car needs twice the steer angle of a neutral one; nan for others."""
+        """Speed [m/s] at which an understeering car needs twice a neutral one's steer angle; nan for others."""
         L, K = self._values
         with np.errstate(all="ignore"):
             return _plain(np.where(L * K > 0, np.sqrt(L / K), np.nan))
@@ -108,25 +109,25 @@ class SteadyTurn:
         return _plain(self._over(U) / R)
 
     def yaw_rate_gain(self, speed: Any) -> Any:
-        """Return yaw rate per steer angle [(rad/s)/rad] at speeds [m/s]; array parameters lead."""
+        """Return yaw rate per steer angle [(rad/s)/rad] at speeds [m/s], of shape (..., *shape of speeds)."""
         U = np.asarray(speed, dtype=float)
         with np.errstate(divide="ignore"):
             return _plain(U / self._over(U))
 
     def acceleration_gain(self, speed: Any) -> Any:
-        """Return lateral acceleration per steer angle [(m/s^2)/rad] at speeds [m/s]; array parameters lead."""
+        """Return lateral acceleration per steer angle [(m/s^2)/rad] at speeds [m/s]."""
         U = np.asarray(speed, dtype=float)
         with np.errstate(divide="ignore"):
             return _plain(U**2 / self._over(U))
 
     def curvature_gain(self, speed: Any) -> Any:
-        """Return path curvature per steer angle [(1/m)/rad] at speeds [m/s]; array parameters lead."""
+        """Return path curvature per steer angle [(1/m)/rad] at speeds [m/s]."""
         with np.errstate(divide="ignore"):
             return _plain(1 / self._over(np.asarray(speed, dtype=float)))
 
     @property
     def largest_yaw_rate_gain(self) -> Any:
-        """Largest yaw-rate gain [1/s] of an understeering car, reached at its characteristic speed; nan for others."""
+        """Largest yaw-rate gain [1/s], at the characteristic speed of an understeering car; nan for others."""
         return _plain(np.asarray(self.characteristic_speed) / (2 * self._values[0]))
 
     def _over(self, U: Array) -> Array:
@@ -139,10 +140,13 @@ class SteadyTurn:
         if self.vehicle.dims:
             return f"{name}: steady turns for arrays of {', '.join(self.vehicle.dims)}"
         head = f"{name}: {self.handling}"
-        gradient = f"{self.gradient:.5g} rad/(m/s^2) = {self.gradient_per_g:.5g} rad/g = {self.gradient_deg_per_g:.4g} deg/g"
+        gradient = f"{self.gradient:.5g} rad/(m/s^2) = {self.gradient_per_g:.5g} rad/g"
+        gradient += f" = {self.gradient_deg_per_g:.4g} deg/g"
         lines = [head, f"    understeer gradient K = {gradient}", f"    K = {self.gradient_formula}"]
         if self.handling == "understeer":
-            lines.append(f"    characteristic speed {self.characteristic_speed:.5g} m/s, where the yaw-rate gain is")
+            lines.append(
+                f"    characteristic speed {self.characteristic_speed:.5g} m/s, where the yaw-rate gain is"
+            )
             lines.append(f"    largest: {self.largest_yaw_rate_gain:.4g} (rad/s)/rad")
         if self.handling == "oversteer":
             lines.append(f"    critical speed {self.critical_speed:.5g} m/s, where the gains are infinite")
@@ -155,7 +159,8 @@ def steady_turn(vehicle: Model, steer: str = "delta_f") -> SteadyTurn:
     Parameters
     ----------
     vehicle
-        Any model with a speed, a yaw rate ``r`` [rad/s] among its states and the steer angle among its inputs.
+        Any model with a speed, a yaw rate ``r`` [rad/s] among its states and the steer angle among its
+        inputs.
     steer
         The input [rad] that steers.
 
@@ -184,13 +189,21 @@ def steady_turn(vehicle: Model, steer: str = "delta_f") -> SteadyTurn:
         text
         for lacks, text in (
             (declared.speed is None, "a speed"),
-            (declared.variables.get("r") is None or declared.variables["r"].unit != "rad/s", "a yaw rate r [rad/s]"),
-            (declared.inputs.get(steer) is None or declared.inputs[steer].unit != "rad", f"a steer angle {steer} [rad]"),
+            (
+                declared.variables.get("r") is None or declared.variables["r"].unit != "rad/s",
+                "a yaw rate r [rad/s]",
+            ),
+            (
+                declared.inputs.get(steer) is None or declared.inputs[steer].unit != "rad",
+                f"a steer angle {steer} [rad]",
+            ),
         )
         if lacks
     ]
     if missing or declared.speed is None:
-        raise UcritError(f"{cls.model_id()}: a steady turn needs {' and '.join(missing)}, which the model does not have")
+        raise UcritError(
+            f"{cls.model_id()}: a steady turn needs {' and '.join(missing)}, which the model does not have"
+        )
     facts = cached(cls, f"steady-{steer}", lambda: _derive(cls, steer))
     return SteadyTurn(vehicle, steer, declared.speed, **{**facts, "parameters": tuple(facts["parameters"])})
 
@@ -220,7 +233,9 @@ def _derive(cls: type[Model], steer: str) -> dict[str, Any]:
     for monom, c in below.terms():
         parts.setdefault(monom[at], {})[(*monom[:at], 0, *monom[at + 1 :])] = c
     if any(m[at] for m in above.itermonoms()) or set(parts) != {0, 2}:
-        raise UcritError(f"{cls.model_id()}: the steer angle of a steady turn is not of the form L/R + K U**2/R")
+        raise UcritError(
+            f"{cls.model_id()}: the steer angle of a steady turn is not of the form L/R + K U**2/R"
+        )
     ratios = (readable_ratio(ring.from_dict(parts[k]), above).xreplace(dict(found.functions)) for k in (0, 2))
     L, K = map(sign_inside, ratios)
     symbols = list(system.traced.parameters.values())
@@ -234,16 +249,25 @@ def _derive(cls: type[Model], steer: str) -> dict[str, Any]:
 
 
 def sign_inside(product: Any) -> Any:
-    """Write ``-m*(x - y)`` as ``m*(y - x)``."""
-    sums = [f for f in product.args if f.is_Add and any(t.could_extract_minus_sign() for t in f.args)]
-    if not (product.is_Mul and product.could_extract_minus_sign() and sums):
+    """Write ``-m*(x - y)`` as ``m*(y - x)``, and no sum with minus signs only."""
+    if not product.is_Mul:
         return product
-    rest = [-f if f == sums[0] else f for f in product.args]
-    return type(product)(-1, *rest)
+    parts, sign = [], 1
+    for part in product.args:
+        base, exponent = part.as_base_exp()
+        if base.is_Add and exponent.is_odd and all(t.could_extract_minus_sign() for t in base.args):
+            part, sign = (-base) ** exponent, -sign
+        parts.append(part)
+    whole = sign * type(product)(*parts)
+    sums = [p for p in parts if p.is_Add and any(t.could_extract_minus_sign() for t in p.args)]
+    if sums and whole.could_extract_minus_sign():
+        return sign * type(product)(*(-p if p == sums[0] else p for p in parts)) * -1
+    return whole
 
 
 def axle_loads(vehicle: Model) -> tuple[Any, Any]:
-    """Return the static loads [N] of front and rear axle, of which the side forces in a steady turn are shares.
+    """Return the static loads [N] of front and rear axle, of which the side forces in a steady turn are
+    shares.
 
     Needs the parameters ``m`` [kg], ``a`` [m] and ``b`` [m]; `UcritError` tells which are missing.
 

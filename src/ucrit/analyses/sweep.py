@@ -154,7 +154,7 @@ def _check_size(shape: tuple[int, ...], order: int, where: str) -> None:
     if size > MAX_BYTES:
         raise UcritError(
             f"{where}: a sweep of {points:,} points needs {size / 2**30:.1f} GiB and "
-            f"{MAX_BYTES / 2**30:.1f} GiB are allowed; take fewer points, or stability_map for a map of what is stable"
+            f"{MAX_BYTES / 2**30:.1f} GiB are allowed; take fewer points, or a stability_map"
         )
 
 

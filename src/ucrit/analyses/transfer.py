@@ -1,4 +1,4 @@
-"""Transfer functions as rational functions of s and the parameters, with their zeros, poles and what cancels."""
+"""Transfer functions, rational in s and the parameters, with their zeros, poles and what cancels."""
 
 from __future__ import annotations
 
@@ -37,8 +37,8 @@ class TransferFunction:
     text, latex, mathml
         The whole function, factored.
     cancelled
-        Factors of the characteristic polynomial that the numerator has too, whatever the parameters: motions that
-        this input and output do not see.
+        Factors of the characteristic polynomial that the numerator has too, whatever the parameters: motions
+        that this input and output do not see.
     vehicle
         The vehicle whose numbers are put in, ``None`` for a model without.
     """
@@ -69,7 +69,7 @@ class TransferFunction:
         return values[: len(self.numerator)], values[len(self.numerator) :]
 
     def __call__(self, s: Any) -> Array:
-        """Return complex values for Laplace variables s [1/s]; the vehicle's array parameters lead, s follows."""
+        """Return complex values at s [1/s], of shape (..., *shape of s) for array parameters of shape (...)."""
         s = np.asarray(s, dtype=complex)
         above, below = (self._at(part, s) for part in self.coefficients())
         with np.errstate(all="ignore"):
@@ -120,7 +120,9 @@ class TransferFunction:
 
     def _numbers(self) -> Model:
         if self.vehicle is None:
-            raise UcritError(f"{self.model}: numbers need a vehicle: transfer(vehicle, '{self.input}', '{self.output}')")
+            raise UcritError(
+                f"{self.model}: numbers need a vehicle: transfer(vehicle, '{self.input}', '{self.output}')"
+            )
         return self.vehicle
 
     def _roots(self, part: int) -> Array:
@@ -137,17 +139,23 @@ class TransferFunction:
 
     def remarks(self) -> list[str]:
         """Return in words what is worth knowing: cancelled motions, zeros that turn the response round."""
-        found = ["a position (zero root) is not seen" if text == "s" else f"the motion of {text} is not seen"
-                 for text in self.cancelled]
+        found = [
+            "a position (zero root) is not seen" if text == "s" else f"the motion of {text} is not seen"
+            for text in self.cancelled
+        ]
         if self.vehicle is None or self.vehicle.dims:
             return found
         for pole in self.cancellations():
             word = "growing " if pole.real > 0 else ""
-            found.append(f"the {word}motion of pole {_number(pole)} is cancelled by a zero for these parameters")
+            found.append(
+                f"the {word}motion of pole {_number(pole)} is cancelled by a zero for these parameters"
+            )
         right = self._right_zeros()
         if right:
             where = ", ".join(map(_number, right))
-            found.append(f"non-minimum phase: zero{'s' if len(right) > 1 else ''} at {where} 1/s" + self._turns(right))
+            found.append(
+                f"non-minimum phase: zero{'s' if len(right) > 1 else ''} at {where} 1/s" + self._turns(right)
+            )
         if math.isinf(self.static_gain):
             found.append("the input is integrated: a constant input gives an output that grows without bound")
         return found
@@ -194,7 +202,8 @@ def transfer(
     output
         Name of a variable, its rate (``"theta'"``), or a declared output.
     where
-        Parameters replaced by formulas in the others or by numbers: ``{"C_r": "a*C_f/b"}`` makes a car neutral.
+        Parameters replaced by formulas in the others or by numbers: ``{"C_r": "a*C_f/b"}`` makes a car
+        neutral.
     direction
         +1 forward, -1 backing up; that of the vehicle's speed by default.
 
@@ -229,7 +238,9 @@ def transfer(
         piece += "-" + hashlib.sha256(repr(sorted(given.items())).encode()).hexdigest()[:16]
     facts = cached(cls, piece, lambda: _derive(cls, sense, input, output, given))
     facts = {key: tuple(value) if isinstance(value, list) else value for key, value in facts.items()}
-    return TransferFunction(cls.model_id(), input, output, _unit(cls, input, output), vehicle=vehicle, **facts)
+    return TransferFunction(
+        cls.model_id(), input, output, _unit(cls, input, output), vehicle=vehicle, **facts
+    )
 
 
 def _unit(cls: type[Model], input: str, output: str) -> str:
@@ -240,15 +251,25 @@ def _unit(cls: type[Model], input: str, output: str) -> str:
         base = output.rstrip("'")
         unit = declared.variables[base].state_unit(len(output) - len(base))
     per = declared.inputs[input].unit
-    return "1" if unit == per else unit if per == "1" else f"{unit}/({per})" if " " in per or "/" in per else f"{unit}/{per}"
+    return (
+        "1"
+        if unit == per
+        else unit
+        if per == "1"
+        else f"{unit}/({per})"
+        if " " in per or "/" in per
+        else f"{unit}/{per}"
+    )
 
 
-def _derive(cls: type[Model], direction: int, input: str, output: str, given: Mapping[str, Any]) -> dict[str, Any]:
-    from ..core.expressions import parse
+def _derive(
+    cls: type[Model], direction: int, input: str, output: str, given: Mapping[str, Any]
+) -> dict[str, Any]:
     from ..core import typeset
     from ..core.codegen import generate
     from ..core.cramer import cramer
     from ..core.derive import symbolic
+    from ..core.expressions import parse
     from .polynomials import factored_in_s, product
 
     system = symbolic(cls, direction)
@@ -257,8 +278,13 @@ def _derive(cls: type[Model], direction: int, input: str, output: str, given: Ma
         formulas = {names[k]: parse(v, names, f"{cls.model_id()}: {k}") for k, v in given.items()}
         system = system.substituted(formulas)
     found = cramer(system, input, output)
-    above, below = ([product(c, found.functions) for c in found.in_s(p)] for p in (found.numerator, found.denominator))
-    top, bottom = factored_in_s(found.numerator, found.functions), factored_in_s(found.denominator, found.functions)
+    above, below = (
+        [product(c, found.functions) for c in found.in_s(p)] for p in (found.numerator, found.denominator)
+    )
+    top, bottom = (
+        factored_in_s(found.numerator, found.functions),
+        factored_in_s(found.denominator, found.functions),
+    )
     symbols = [symbol for name, symbol in names.items() if name not in given]
     return {
         "numerator": [typeset.text(c) for c in above],

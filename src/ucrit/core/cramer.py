@@ -1,4 +1,4 @@
-"""Transfer functions by Cramer's rule: two determinants over a ring of polynomials in the parameters and s."""
+"""Transfer functions by Cramer's rule: two determinants of polynomials in the parameters and s."""
 
 from __future__ import annotations
 
@@ -17,7 +17,8 @@ if TYPE_CHECKING:
 class Rational:
     """``numerator / denominator``, both polynomials in s (the ring's last generator) and the parameters.
 
-    ``cancelled`` holds the factors with s that were common to both; ``functions`` what some symbols stand for.
+    ``cancelled`` holds the factors with s that were common to both; ``functions`` what some symbols stand
+    for.
     """
 
     numerator: Any
@@ -31,7 +32,7 @@ class Rational:
 
 
 def output_names(model: type[Model]) -> tuple[str, ...]:
-    """Names of what can be an output: the variables, their derivatives below the highest, the declared outputs."""
+    """Names of possible outputs: variables, their derivatives below the highest, declared outputs."""
     declared = model.declaration
     states = [v.label(k) for v in declared.variables.values() for k in range(max(v.order, 1))]
     return (*states, *declared.outputs)
@@ -40,15 +41,15 @@ def output_names(model: type[Model]) -> tuple[str, ...]:
 def cramer(system: LinearSystem, input: str, output: str) -> Rational:
     """Return the transfer function from an input to an output, in lowest terms.
 
-    The determinant of P(s), bordered by the input's column and the output's row, is that of P(s) times the transfer
-    function (F. R. Gantmacher, The Theory of Matrices (1959), volume 1, section II.5).
+    The determinant of P(s), bordered by the input's column and the output's row, is that of P(s) times the
+    transfer function (F. R. Gantmacher, The Theory of Matrices (1959), volume 1, section II.5).
 
     Raises
     ------
     UcritError
         If there is no such input or output.
     """
-    from sympy import Dummy, S
+    from sympy import ZZ, Dummy, S
     from sympy.polys.matrices import DomainMatrix
     from sympy.polys.rings import PolyRing
 
@@ -58,7 +59,7 @@ def cramer(system: LinearSystem, input: str, output: str) -> Rational:
     flat = [e for row in entries for chain in row for e in chain]
     domain, elements, functions = linear._domain([*flat, S.One], system.bounds)
     symbols = domain.symbols if domain.is_Composite else ()
-    ring = PolyRing((*symbols, Dummy("s")), linear.sp.ZZ, "lex")
+    ring = PolyRing((*symbols, Dummy("s")), ZZ, "lex")
     source, one, n = iter(elements), elements[-1], len(entries) - 1
     rows = []
     for row in entries:
@@ -84,7 +85,10 @@ def _bordered(system: LinearSystem, input: str, output: str) -> list[list[list[A
     model, top = system.traced.model, len(system.P)
     check_names(model, input, output)
     n, column = system.P[0].rows, list(model.declaration.inputs).index(input)
-    rows = [[[system.P[k][i, j] for k in range(top)] for j in range(n)] + [[-system.Q[i, column]]] for i in range(n)]
+    rows = [
+        [[system.P[k][i, j] for k in range(top)] for j in range(n)] + [[-system.Q[i, column]]]
+        for i in range(n)
+    ]
     declared = list(model.declaration.outputs)
     if output in declared:
         i = declared.index(output)
@@ -119,7 +123,7 @@ def coefficients_in_s(polynomial: Any) -> list[Any]:
     return [ring.from_dict(parts.get(k, {})) for k in range(max(parts) + 1)]
 
 
-def factored(polynomial: Any) -> tuple[int, list[tuple[Sequence[Any], int]]]:
+def split_in_s(polynomial: Any) -> tuple[int, list[tuple[Sequence[Any], int]]]:
     """Return content and factors of a polynomial, each factor as its coefficients in s."""
     from .factor import factors
 

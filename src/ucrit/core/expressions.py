@@ -19,12 +19,15 @@ OPERATORS = {
     ast.Pow: operator.pow,
 }
 SIGNS = {ast.USub: operator.neg, ast.UAdd: operator.pos}
-FUNCTIONS = {name: getattr(sp, name) for name in ("sin", "cos", "tan", "asin", "atan", "atan2", "sqrt", "exp", "log")}
+FUNCTIONS = {
+    name: getattr(sp, name) for name in ("sin", "cos", "tan", "asin", "atan", "atan2", "sqrt", "exp", "log")
+}
 FUNCTIONS |= {"tanh": sp.tanh, "sign": sp.sign, "abs": sp.Abs}
 
 
 def parse(formula: str | float, names: Mapping[str, Any], where: str) -> Any:
-    """Return a formula as an expression; ``names`` gives the meaning of each name (dots included: ``dx.theta``).
+    """Return a formula as an expression; ``names`` gives the meaning of each name (dots included:
+    ``dx.theta``).
 
     >>> m, a = sp.symbols("m a")
     >>> parse("m*a**2/2 + 0.25", {"m": m, "a": a}, "example")

@@ -1,8 +1,9 @@
 """Limits of the characteristic polynomial as parameters grow without bound or vanish.
 
-As C grows, the finite roots of ``sum_k a_k(C) s^k`` tend to the roots of the terms of highest degree in C; the other
-roots go to infinity or to zero like powers of C, which the edges of the Newton polygon of the points (k, degree of a_k)
-give (V. Puiseux, J. Math. Pures Appl. 15 (1850) 365-480). A limit to zero is the same with degrees counted downwards.
+As C grows, the finite roots of ``sum_k a_k(C) s^k`` tend to the roots of the terms of highest degree in C;
+the other roots go to infinity or to zero like powers of C, which the edges of the Newton polygon of the
+points (k, degree of a_k) give (V. Puiseux, J. Math. Pures Appl. 15 (1850) 365-480). A limit to zero is the
+same with degrees counted downwards.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 from .errors import UcritError, near_match
@@ -24,8 +26,8 @@ if TYPE_CHECKING:
 class Escape:
     """Roots that leave the finite part of the plane: ``s = z C**power``, or ``z / p**power`` as p vanishes.
 
-    ``polynomial`` has the factors z as its roots. A positive power means that they go to infinity, a negative one
-    that they go to zero.
+    ``polynomial`` has the factors z as its roots. A positive power means that they go to infinity, a
+    negative one that they go to zero.
     """
 
     parameter: str
@@ -100,24 +102,24 @@ def _symbol(polynomial: CharacteristicPolynomial, name: str, value: float) -> An
 def _one(polynomial: CharacteristicPolynomial, symbol: Any, sign: int) -> tuple[Any, list[Escape]]:
     index = polynomial.ring.symbols.index(symbol)
     points = {
-        k: max(sign * monom[index] for monom in a.itermonoms()) for k, a in enumerate(polynomial.coefficients) if a
+        k: max(sign * monom[index] for monom in a.itermonoms())
+        for k, a in enumerate(polynomial.coefficients)
+        if a
     }
-    hull = _upper_hull(sorted(points.items()))
-    finite, escapes = None, []
-    for (k, d), (k2, d2) in zip(hull, hull[1:], strict=False):
+    hull, a = _upper_hull(sorted(points.items())), polynomial.coefficients
+    top = max(points.values())
+    finite = [_leading(c, index, sign, Fraction(top)) for c in a]
+    while not finite[-1]:
+        finite.pop()
+    kept = next(k for k, c in enumerate(finite) if c)
+    escapes = []
+    for (k, d), (k2, d2) in pairwise(hull):
         power = Fraction(d - d2, k2 - k)
-        part = [_leading(polynomial.coefficients[i], index, sign, d - power * (i - k)) for i in range(k, k2 + 1)]
-        edge = _primitive(polynomial, part)
-        if power == 0:
-            finite = (k, edge)
-        else:
-            escapes.append(Escape(symbol.name, power, edge))
-    if finite is None:  # no root stays finite but structural zeros
-        top = max(points.values())
-        k = next(k for k, d in points.items() if d == top)
-        finite = (k, _primitive(polynomial, [_leading(polynomial.coefficients[k], index, sign, Fraction(top))]))
-    zeros = polynomial.zeros
-    return _shifted(finite[1], zeros), escapes
+        if power:
+            edge = [_leading(a[i], index, sign, d - power * (i - k)) for i in range(k, k2 + 1)]
+            escapes.append(Escape(symbol.name, power, _primitive(polynomial, edge)))
+    zeros = [polynomial.ring.zero] * polynomial.zeros
+    return _primitive(polynomial, [*zeros, *finite[kept:]]), escapes
 
 
 def _upper_hull(points: list[tuple[int, int]]) -> list[tuple[int, int]]:
@@ -134,9 +136,13 @@ def _upper_hull(points: list[tuple[int, int]]) -> list[tuple[int, int]]:
 
 def _leading(a: Any, index: int, sign: int, degree: Fraction) -> Any:
     """Terms of one degree in a parameter, with that power of it taken out."""
-    return a.ring.from_dict({
-        (*monom[:index], 0, *monom[index + 1 :]): c for monom, c in a.terms() if sign * monom[index] == degree
-    })
+    return a.ring.from_dict(
+        {
+            (*monom[:index], 0, *monom[index + 1 :]): c
+            for monom, c in a.terms()
+            if sign * monom[index] == degree
+        }
+    )
 
 
 def _primitive(polynomial: CharacteristicPolynomial, coefficients: list[Any]) -> CharacteristicPolynomial:
@@ -146,13 +152,9 @@ def _primitive(polynomial: CharacteristicPolynomial, coefficients: list[Any]) ->
         common = common.gcd(a)
     if coefficients[-1].LC * common.LC < 0:
         common = -common
-    return type(polynomial)(polynomial.ring, tuple(a.exquo(common) for a in coefficients), polynomial.functions)
-
-
-def _shifted(polynomial: CharacteristicPolynomial, zeros: int) -> CharacteristicPolynomial:
-    """Return ``s**zeros`` times a polynomial: structural zeros stay."""
-    padded = (*[polynomial.ring.zero] * zeros, *polynomial.coefficients)
-    return type(polynomial)(polynomial.ring, padded, polynomial.functions)
+    return type(polynomial)(
+        polynomial.ring, tuple(a.exquo(common) for a in coefficients), polynomial.functions
+    )
 
 
 def check_names(model: type[Model], names: Mapping[str, Any]) -> None:
@@ -160,4 +162,6 @@ def check_names(model: type[Model], names: Mapping[str, Any]) -> None:
     declared = model.declaration.parameters
     for name in names:
         if name not in declared:
-            raise UcritError(f"{model.model_id()}: there is no parameter '{name}'{near_match(name, declared)}")
+            raise UcritError(
+                f"{model.model_id()}: there is no parameter '{name}'{near_match(name, declared)}"
+            )

@@ -1,7 +1,9 @@
-"""Axes: x forward, y to the right, z down, fixed to the body; r and delta positive to the right. SI units and radians.
+"""Axes: x forward, y to the right, z down, fixed to the body; r and delta positive to the right. SI units
+and radians.
 
-The steered assembly (front wheels, linkage, steering wheel, reduced to the steer axis) is balanced about its axis, which
-meets the road a length e ahead of the point where the front side force acts; held still, it adds I_s to I_z.
+The steered assembly (front wheels, linkage, steering wheel, reduced to the steer axis) is balanced about its
+axis, which meets the road a length e ahead of the point where the front side force acts; held still, it adds
+I_s to I_z.
 """
 
 from ..core import Model, coordinate, cos, input, output, param, sin, speed, state
@@ -9,7 +11,7 @@ from ..parts.tires import linear_side_force, slip_angle
 
 
 class CarFreeControl(Model):
-    """Single-track car steered by a torque, with steering dynamics and caster trail (Karnopp 2004, Problem 6.6)."""
+    """Single-track car steered by a torque, with steering dynamics and trail (Karnopp 2004, Problem 6.6)."""
 
     m: float = param("kg", "mass", above=0)
     I_z: float = param("kg m^2", "yaw moment of inertia about the centre of mass, without I_s", above=0)
@@ -20,7 +22,9 @@ class CarFreeControl(Model):
     C_f: float = param("N/rad", "cornering coefficient of the front axle", above=0)
     C_r: float = param("N/rad", "cornering coefficient of the rear axle", above=0)
     c_s: float = param("N m s/rad", "damping of the steering at the steer axis", at_least=0)
-    k_s: float = param("N m/rad", "stiffness that centres the steering, or of a held steering column", at_least=0)
+    k_s: float = param(
+        "N m/rad", "stiffness that centres the steering, or of a held steering column", at_least=0
+    )
     U: float = speed("forward speed")
 
     V = state("m/s", "lateral velocity of the centre of mass", motion="weave")
@@ -50,7 +54,7 @@ class CarFreeControl(Model):
         )
 
     def equations_two_bodies(self, x, dx, ddx, u):
-        """Car without the assembly, and the assembly, each about its own point; the steer axis carries the force."""
+        """The car about its rear axle and the assembly about the steer axis, which passes on the force."""
         Y_f, Y_r = self.side_forces(x, dx)
         on_assembly = -self.c_s * dx.delta - self.k_s * x.delta + u.tau
         at_axis = Y_f * cos(x.delta)

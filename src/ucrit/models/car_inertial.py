@@ -1,6 +1,8 @@
-"""Axes: X along the road, Y to the right, fixed to the ground; psi positive to the right. SI units and radians.
+"""Axes: X along the road, Y to the right, fixed to the ground; psi positive to the right. SI units and
+radians.
 
-The centre of mass runs along X with constant speed U; steer angles are relative to the body, positive to the right.
+The centre of mass runs along X with constant speed U; steer angles are relative to the body, positive to the
+right.
 """
 
 from ..core import Model, coordinate, cos, input, param, sin, speed

@@ -1,6 +1,7 @@
 """Axes: x forward, y to the right, z down, fixed to the car; r positive to the right. SI units and radians.
 
-theta is the trailer's yaw angle to the car, positive when its rear swings to the left; the car keeps its forward speed.
+theta is the trailer's yaw angle to the car, positive when its rear swings to the left; the car keeps its
+forward speed.
 """
 
 from ..core import Model, coordinate, cos, input, output, param, sin, speed, state
@@ -8,7 +9,7 @@ from ..parts.tires import linear_side_force, slip_angle
 
 
 class CarTrailer(Model):
-    """Single-track car with a trailer on a hitch with yaw damping (Pacejka 2012, section 1.3.6; Karnopp 2004, chapter 5)."""
+    """Single-track car with a trailer on a hitch with yaw damping (after Karnopp 2004, chapters 5 and 6)."""
 
     m: float = param("kg", "mass of the car", above=0)
     I_z: float = param("kg m^2", "yaw moment of inertia of the car about its centre of mass", above=0)
@@ -81,8 +82,12 @@ class CarTrailer(Model):
         axle = self.a_t + self.b_t
         return (
             lateral + self.m_t * (along * S + across * C) - Y_f - Y_r - Y_t * C,
-            self.I_z * dx.r + turning - self.m_t * (along * self.h * S + across * (self.h * C + self.a_t))
-            - self.a * Y_f + self.b * Y_r + Y_t * (self.h * C + axle),
+            self.I_z * dx.r
+            + turning
+            - self.m_t * (along * self.h * S + across * (self.h * C + self.a_t))
+            - self.a * Y_f
+            + self.b * Y_r
+            + Y_t * (self.h * C + axle),
             turning - self.m_t * across * self.a_t + axle * Y_t + self.c * dx.theta,
         )
 

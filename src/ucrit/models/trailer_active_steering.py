@@ -1,7 +1,8 @@
-"""Axes: those of the hitch, forward along its path and to the left; r positive to the right. SI units and radians.
+"""Axes: those of the hitch, forward along its path and to the left; r positive to the right. SI units and
+radians.
 
-theta is positive when the trailer's rear swings to the left, omega when the path turns to the right; the wheels are
-steered in the same sense as theta.
+theta is positive when the trailer's rear swings to the left, omega when the path turns to the right; the
+wheels are steered in the same sense as theta.
 """
 
 from ..core import Model, cos, input, output, param, sin, speed, state

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 Array = npt.NDArray[Any]
 
+LABEL = 0.85
+"""Room that the label of a marked value takes [in]; one that is nearer to the next goes above it."""
+
 
 def plot_damping(locus: Locus, *, critical: CriticalValues | None = None, figure: Any = None) -> Any:
     """Draw how damping and frequency of the modes depend on the parameter.
@@ -143,10 +146,11 @@ def _lines(axes: Any, locus: Locus, critical: CriticalValues | None, where: Arra
     if where[0] <= design <= where[-1]:
         named.append((design, f"{labels.quantity(design, unit)}\nthis vehicle", ":"))
     span, level, last = where[-1] - where[0], 0, -math.inf
+    near = span * LABEL / (0.86 * axes[0].figure.bbox.width / axes[0].figure.dpi)
     for value, text, dash in sorted(named):
         for panel in axes:
             panel.axvline(value, color=style.INK, linewidth=1.1, linestyle=dash, zorder=3)
-        level = level + 1 if value - last < 0.2 * span else 0
+        level = level + 1 if value - last < near else 0
         last = value
         axes[0].annotate(
             text,

@@ -23,7 +23,7 @@ WIDE = 8.0
 
 
 def map_parameters(analysis: Analysis, asked: Sequence[str] | None) -> tuple[str, str] | None:
-    """Return the map's parameters: those asked for, or speed and the most effective remedy, or two remedies.
+    """Return the map's parameters: those asked for, or speed and the most effective one, or the two of these.
 
     ``None`` where fewer than two parameters are worth a map.
     """
@@ -31,8 +31,8 @@ def map_parameters(analysis: Analysis, asked: Sequence[str] | None) -> tuple[str
     if asked is not None:
         return _checked(analysis.vehicle, asked)
     effective = [r.parameter for r in analysis.remedies if r.value is not None]
-    if not effective and declared.speed is not None:
-        effective = _effective_beyond(analysis)
+    if analysis.stable:
+        effective = _sensitive(analysis)
     candidates = [*([declared.speed] if declared.speed else []), *effective, *declared.parameters]
     chosen = list(dict.fromkeys(candidates))
     return (chosen[0], chosen[1]) if len(chosen) > 1 else None
@@ -50,16 +50,19 @@ def _checked(vehicle: Model, asked: Sequence[str]) -> tuple[str, str]:
     return asked[0], asked[1]
 
 
-def _effective_beyond(analysis: Analysis) -> list[str]:
-    """For a stable vehicle: what would move its first critical speed, by the remedies just above it."""
-    from ..analyses.remedies import remedies
+def _sensitive(analysis: Analysis) -> list[str]:
+    """Parameters of a stable vehicle, first those that move its next critical speed most, or its damping."""
+    from ..analyses.sensitivity import sensitivity
 
-    above = [abs(c.value) for c in analysis.critical or () if abs(c.value) > abs(analysis.speed or 0)]
-    if not above:
-        return []
-    beyond = math.copysign(1.05 * min(above), analysis.speed or 1)
-    found = remedies(analysis.vehicle, upto=beyond, since=0.999 * (analysis.speed or 0))
-    return [r.parameter for r in found if r.value is not None]
+    vehicle = analysis.vehicle
+    found = sensitivity(vehicle)
+    beyond = [c for c in found.critical if abs(c.critical.value) > abs(analysis.speed or 0)]
+    if beyond:
+        effects = min(beyond, key=lambda c: abs(c.critical.value)).normalised
+    else:
+        effects = {name: float(slope * vehicle.values[name]) for name, slope in found.growth.items()}
+    known = {name: abs(effect) for name, effect in effects.items() if effect and math.isfinite(effect)}
+    return sorted(known, key=lambda name: -known[name])
 
 
 def map_range(analysis: Analysis, name: str, count: int, path: Locus | None = None) -> Array:

@@ -151,8 +151,8 @@ def of_modes(analysis: Analysis) -> list[Drawing]:
                 "shapes",
                 f"Dials of amplitude and phase of each variable in {names}.",
             ),
-            "Shape of each mode: a hand's length is the amplitude, its direction the phase: counter-clockwise "
-            "is ahead. Lengths compare variables of one unit; numbers are for 1 of the largest.",
+            "Shape of each mode: a hand's length is the amplitude, its direction the phase, "
+            "counter-clockwise ahead. Lengths compare variables of one unit; the largest counts as 1.",
         ),
         Drawing(
             svg(
