@@ -13,8 +13,8 @@ ROOT = Path(__file__).resolve().parent.parent
 
 def main(folder: str) -> None:
     """Create the environment in ``folder``, from scratch."""
-    if sys.version_info < (3, 11):
-        sys.exit(f"ucrit needs Python 3.11 or newer, this is {sys.version.split()[0]}: make PYTHON=python3.12 ...")
+    if sys.version_info < (3, 11):  # noqa: UP036 - this file is run by whatever Python there is
+        sys.exit(f"ucrit needs Python 3.11 or newer, not {sys.version.split()[0]}: make PYTHON=python3.12 ...")
     venv.EnvBuilder(clear=True, symlinks=True).create(folder)
     python = Path(folder).absolute() / "bin" / "python"
     (wheel,) = (ROOT / "tools").glob("pip-*.whl")

@@ -41,7 +41,17 @@ def test_the_dictionary_is_plain_data_in_the_documented_schema(name):
     found = analyze(name)
     data = json.loads(json.dumps(found.to_dict(), allow_nan=False))
     assert data["schema"] == 1
-    assert set(data) == {"schema", "vehicle", "model", "verdict", "speed", "modes", "critical", "criteria", "remedies"}
+    assert set(data) == {
+        "schema",
+        "vehicle",
+        "model",
+        "verdict",
+        "speed",
+        "modes",
+        "critical",
+        "criteria",
+        "remedies",
+    }
     for mode in data["modes"]:
         assert {"name", "re", "im", "frequency_hz", "damping_ratio", "participation"} <= set(mode)
         assert sum(mode["participation"].values()) == pytest.approx(1)

@@ -52,9 +52,7 @@ def test_xarray_finds_values_by_name():
     assert not bool(data.stable.sel(U=40, c=4000))
     found = modes(load("caravan"))
     picked = modes(load("caravan")).to_xarray().sel(mode="yaw oscillation")
-    assert (
-        float(picked.eigenvalue_real) == next(m for m in found if m.name == "yaw oscillation").eigenvalue.real
-    )
+    assert float(picked.eigenvalue_real) == next(m for m in found if m.name == "yaw oscillation").eigenvalue.real
     assert float(picked.participation.sum()) == pytest.approx(1)
     curve = locus(load("caravan"), points=20).to_xarray()
     assert curve.eigenvalue_imag.sel(mode="lateral oscillation").dims == ("U",)
@@ -122,9 +120,7 @@ def test_netcdf_can_hold_it(result, tmp_path):
 def test_a_file_appears_whole_or_not_at_all(result, tmp_path, monkeypatch):
     path = tmp_path / "result.csv"
     path.write_text("before")
-    monkeypatch.setattr(
-        "os.replace", lambda *_: (_ for _ in ()).throw(OSError(28, "No space left on device"))
-    )
+    monkeypatch.setattr("os.replace", lambda *_: (_ for _ in ()).throw(OSError(28, "No space left on device")))
     with pytest.raises(UcritError, match=r"result\.csv' cannot be written: No space left on device"):
         result.to_csv(path)
     assert path.read_text() == "before"

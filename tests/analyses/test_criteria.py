@@ -50,7 +50,16 @@ def test_criterion_is_the_literatures(model, literature, failure):
 def test_critical_value_in_closed_form_is_the_literatures(model, parameter, power, literature):
     boundary = only_condition(model).boundary(parameter)
     assert boundary.power == power
-    assert sp.simplify(sp.sympify(boundary.expression, locals={"I_c": sp.Symbol("I_c"), "C_f": sp.Symbol("C_f"), "C_r": sp.Symbol("C_r")}) - sp.sympify(literature, locals={"I_c": sp.Symbol("I_c"), "C_f": sp.Symbol("C_f"), "C_r": sp.Symbol("C_r")})) == 0
+    assert (
+        sp.simplify(
+            sp.sympify(
+                boundary.expression,
+                locals={"I_c": sp.Symbol("I_c"), "C_f": sp.Symbol("C_f"), "C_r": sp.Symbol("C_r")},
+            )
+            - sp.sympify(literature, locals={"I_c": sp.Symbol("I_c"), "C_f": sp.Symbol("C_f"), "C_r": sp.Symbol("C_r")})
+        )
+        == 0
+    )
 
 
 @pytest.mark.parametrize("model", ["trailer-rigid-hitch", "trailer-kinematic"])

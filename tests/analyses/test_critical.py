@@ -46,7 +46,9 @@ def test_the_boundary_is_where_an_eigenvalue_is_on_the_axis(name):
         if not zeros:
             nearest = min(modes(vehicle).eigenvalues, key=lambda v: abs(v.real))
         assert abs(nearest.real) < 1e-9 * abs(values).max()
-        assert abs(nearest.imag) / (2 * math.pi) * (found.kind == "flutter") == pytest.approx(found.frequency_hz, abs=1e-9 * abs(values).max())
+        assert abs(nearest.imag) / (2 * math.pi) * (found.kind == "flutter") == pytest.approx(
+            found.frequency_hz, abs=1e-9 * abs(values).max()
+        )
         sides = [modes(vehicle.with_(**{found.parameter: found.value * f})).growth for f in (1 - 1e-4, 1 + 1e-4)]
         assert (sides[0] < sides[1]) == ((found.stable == "below") == (found.value > 0))
 

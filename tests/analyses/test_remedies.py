@@ -41,7 +41,10 @@ def test_remedies_of_the_caravan_are_critical_values_at_the_asked_speed(speed):
 
 
 def test_smallest_change_first_and_the_useless_last():
-    shares = [abs(r.relative) if r.value is not None else float("inf") for r in remedies(load("bmw-320i").with_(C_r=5e4, U=40))]
+    shares = [
+        abs(r.relative) if r.value is not None else float("inf")
+        for r in remedies(load("bmw-320i").with_(C_r=5e4, U=40))
+    ]
     assert shares == sorted(shares)
     assert shares[-1] == float("inf")
 

@@ -66,9 +66,7 @@ def test_slopes_of_the_state_matrix(name):
             at = [state_space(v).A for v in (vehicle, *steps)]
             difference = (-25 * at[0] + 48 * at[1] - 36 * at[2] + 16 * at[3] - 3 * at[4]) / (12 * h)
         else:
-            back2, back, on, on2 = (
-                state_space(vehicle.with_(**{parameter: now + k * h})).A for k in (-2, -1, 1, 2)
-            )
+            back2, back, on, on2 = (state_space(vehicle.with_(**{parameter: now + k * h})).A for k in (-2, -1, 1, 2))
             difference = (back2 - 8 * back + 8 * on - on2) / (12 * h)
         size = np.abs(state_space(vehicle).A).max() / (abs(now) or 1)
         np.testing.assert_allclose(slope, difference, rtol=1e-7, atol=1e-9 * size)

@@ -61,6 +61,9 @@ def test_numeric_work_does_not_import_sympy_the_second_time(tmp_path):
         "print(sorted({'sympy', 'scipy', 'matplotlib', 'pint', 'mpmath', 'xarray'} & set(sys.modules)))"
     )
     env = {**os.environ, "UCRIT_CACHE": str(tmp_path)}
-    runs = [subprocess.run([sys.executable, "-c", code], env=env, capture_output=True, text=True, check=True).stdout for _ in range(2)]
+    runs = [
+        subprocess.run([sys.executable, "-c", code], env=env, capture_output=True, text=True, check=True).stdout
+        for _ in range(2)
+    ]
     assert "sympy" in runs[0]
     assert runs[1].strip() == "[]"

@@ -31,7 +31,11 @@ def test_units_in_files():
     [
         ("m = ", "mm = ", "x.toml: car: there is no parameter 'mm'; did you mean 'm'?"),
         ('"1.1 t"', '"1.1 m"', "x.toml: car: mass m is measured in kg, got '1.1 m'"),
-        ("1800", "-1", "x.toml: car: yaw moment of inertia about the centre of mass I_z must be above 0 kg m^2"),
+        (
+            "1800",
+            "-1",
+            "x.toml: car: yaw moment of inertia about the centre of mass I_z must be above 0 kg m^2",
+        ),
         ("1800", "true", "must be a number or a text with a unit, got True"),
         ("1800", "1979-05-27", "must be a number"),
         ("1800", "", "x.toml: not valid TOML: Invalid value (at line 5, column 7)"),

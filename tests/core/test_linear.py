@@ -17,8 +17,17 @@ from ucrit.core.linear import LinearSystem, characteristic_polynomial, explicit
 
 def system_of(matrices):
     n = matrices[0].rows
-    model = SimpleNamespace(model_id=lambda: "random", declaration=SimpleNamespace(variables={f"q{i}": None for i in range(n)}, parameters={}))
-    return LinearSystem(SimpleNamespace(model=model, u=(), parameters={}), matrices, sp.zeros(n, 0), (sp.zeros(0, n),) * len(matrices), sp.zeros(0, 0))
+    model = SimpleNamespace(
+        model_id=lambda: "random",
+        declaration=SimpleNamespace(variables={f"q{i}": None for i in range(n)}, parameters={}),
+    )
+    return LinearSystem(
+        SimpleNamespace(model=model, u=(), parameters={}),
+        matrices,
+        sp.zeros(n, 0),
+        (sp.zeros(0, n),) * len(matrices),
+        sp.zeros(0, 0),
+    )
 
 
 def eigenvalues_of(reduced):
@@ -44,7 +53,13 @@ entry = st.sampled_from([0, 0, 0, 1, -1, 2, 3])
 
 
 @settings(max_examples=150)
-@given(st.integers(1, 3).flatmap(lambda n: st.lists(st.lists(entry, min_size=n * n, max_size=n * n), min_size=3, max_size=3).map(lambda m: (n, m))))
+@given(
+    st.integers(1, 3).flatmap(
+        lambda n: st.lists(st.lists(entry, min_size=n * n, max_size=n * n), min_size=3, max_size=3).map(
+            lambda m: (n, m)
+        )
+    )
+)
 def test_reduction_keeps_the_characteristic_polynomial(drawn):
     n, entries = drawn
     P = tuple(sp.Matrix(n, n, list(map(sp.Integer, e))) for e in entries)
@@ -73,7 +88,12 @@ def test_exact_coefficients_are_exact(name):
     """With fractions, A's determinant identity holds to the last digit, not to rounding."""
     functions = compiled(find_model(name))
     parameters = find_model(name).declaration.parameters
-    values = [Fraction(k + 2, 7) if p.allows(float(Fraction(k + 2, 7))) else Fraction(str(p.upper if np.isfinite(p.upper) else 1)) / 2 for k, p in enumerate(parameters.values())]
+    values = [
+        Fraction(k + 2, 7)
+        if p.allows(float(Fraction(k + 2, 7)))
+        else Fraction(str(p.upper if np.isfinite(p.upper) else 1)) / 2
+        for k, p in enumerate(parameters.values())
+    ]
     exact = functions.exact_coefficients(values)
     rounded = functions.coefficients([float(v) for v in values])
     assert [float(v) for v in exact] == pytest.approx([float(v) for v in rounded], rel=1e-12)

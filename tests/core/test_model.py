@@ -40,7 +40,10 @@ def test_parameters_are_read_in_order_with_defaults():
         ({"m": 1, "U": 1, "mm": 2}, "Slider: there is no parameter 'mm'; did you mean 'm'?"),
         ({"m": [1, -2], "U": 1}, "Slider: mass m must be above 0 kg, got -2 kg"),
         ({"m": [], "U": 1}, "Slider: mass m must be a number or a one-dimensional array, got shape (0,)"),
-        ({"m": [[1]], "U": 1}, "Slider: mass m must be a number or a one-dimensional array, got shape (1, 1)"),
+        (
+            {"m": [[1]], "U": 1},
+            "Slider: mass m must be a number or a one-dimensional array, got shape (1, 1)",
+        ),
         ({"m": "5 m", "U": 1}, "Slider: mass m is measured in kg, got '5 m'"),
         ({"m": None, "U": 1}, "Slider: mass m is missing; it must be above 0 kg"),
         ({"m": True, "U": 1}, "Slider: mass m must be a number or a text with a unit, got True"),
@@ -130,7 +133,10 @@ def declare(**body):
         ({"_m": param("m", "a length")}, "that name is taken"),
         ({"U": speed(), "W": speed()}, "only one parameter can be the speed"),
         ({"x": state("m", "x")}, "state the motion by one of"),
-        ({"x": state("m", "x"), "equations": lambda self, x, ddxx: 0}, "no argument 'ddxx'; did you mean 'ddx'?"),
+        (
+            {"x": state("m", "x"), "equations": lambda self, x, ddxx: 0},
+            "no argument 'ddxx'; did you mean 'ddx'?",
+        ),
     ],
 )
 def test_wrong_declarations_are_refused(body, message):

@@ -48,7 +48,12 @@ def test_structural_zeros_are_found():
 
 
 def make(equations, **body):
-    common = {"m": param("kg", "mass", above=0), "U": speed(), "y": state("m", "position"), "F": input("N", "force")}
+    common = {
+        "m": param("kg", "mass", above=0),
+        "U": speed(),
+        "y": state("m", "position"),
+        "F": input("N", "force"),
+    }
     return type("Made", (Model,), {**common, **body, "equations": equations})
 
 

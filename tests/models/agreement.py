@@ -21,6 +21,7 @@ def growth(vehicle):
 
 def crossing(vehicle, parameter, near, within=1e-3):
     """Return the parameter's value near a given one at which an eigenvalue crosses the imaginary axis."""
+
     def function(value):
         return growth(vehicle.with_(**{parameter: value}))
 

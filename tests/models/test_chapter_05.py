@@ -35,9 +35,7 @@ def test_steering_cannot_stabilise_a_trailer_that_backs_up():
 
 
 def test_more_gain_gives_more_damping():
-    ratios = [
-        next(iter(modes(load("caravan-active-steering", {"g": g})))).damping_ratio for g in (0, 0.1, 0.2)
-    ]
+    ratios = [next(iter(modes(load("caravan-active-steering", {"g": g})))).damping_ratio for g in (0, 0.1, 0.2)]
     assert ratios[0] < ratios[1] < ratios[2]
 
 
@@ -50,9 +48,7 @@ def test_critical_speed_of_a_gain_of_the_wrong_sign(seed):
 
 
 def test_in_a_steady_turn_the_gain_pushes_the_wheels_further_out():
-    angles = [
-        transfer(load("caravan-active-steering", {"g": g}), "omega", "theta").static_gain for g in (0, 0.2)
-    ]
+    angles = [transfer(load("caravan-active-steering", {"g": g}), "omega", "theta").static_gain for g in (0, 0.2)]
     trailer = load("caravan-active-steering")
     assert angles[1] - angles[0] == pytest.approx(-trailer.g, rel=1e-12)
     plain = trailer.m * trailer.a * trailer.U / (trailer.C * 4) - 4 / trailer.U
@@ -116,8 +112,7 @@ def test_stiffness_at_which_a_short_trailer_with_soft_tires_gains_stability(seed
 def test_criterion_of_the_full_fourth_order():
     (condition,) = criteria(find_model("trailer-undamped-hitch"))
     m, I, a, b, C, k = (
-        symbolic(find_model("trailer-undamped-hitch")).traced.parameters[n]
-        for n in ("m", "I_c", "a", "b", "C", "k")
+        symbolic(find_model("trailer-undamped-hitch")).traced.parameters[n] for n in ("m", "I_c", "a", "b", "C", "k")
     )
     names = {s.name: s for s in (m, I, a, b, C, k)}
     book = (m * a * b - I) * (C * (I + m * b**2) + k * (a + b) * (m * a * b - I))

@@ -124,9 +124,7 @@ def test_caster_of_schwab_and_meijaard(length, stiffness, speed):
 
 
 def test_flexible_pivot_criterion():
-    assert conditions("caster-flexible-pivot") == [
-        "(a*b*m - I_c)*(C*(I_c + b**2*m) + k*(a*b*m - I_c)*(a + b)) > 0"
-    ]
+    assert conditions("caster-flexible-pivot") == ["(a*b*m - I_c)*(C*(I_c + b**2*m) + k*(a*b*m - I_c)*(a + b)) > 0"]
 
 
 @pytest.mark.parametrize("seed", SEEDS)

@@ -102,7 +102,9 @@ class Analysis:
 
 
 def analyze(
-    vehicle: Model | str | os.PathLike[str], upto: float | str | None = None, changes: Mapping[str, Any] | None = None
+    vehicle: Model | str | os.PathLike[str],
+    upto: float | str | None = None,
+    changes: Mapping[str, Any] | None = None,
 ) -> Analysis:
     """Judge a vehicle up to a speed: verdict, modes, critical speeds, criteria and remedies.
 

@@ -88,9 +88,7 @@ class Comparison:
 
         head = "".join(f'<th scope="col">{escape(s.name)}</th>' for s in self.subjects)
         body = "".join(
-            f'<tr><th scope="row">{escape(label)}</th>'
-            + "".join(f"<td>{escape(t)}</td>" for t in texts)
-            + "</tr>"
+            f'<tr><th scope="row">{escape(label)}</th>' + "".join(f"<td>{escape(t)}</td>" for t in texts) + "</tr>"
             for label, texts in self.rows()
         )
         return f"<table><tr><td></td>{head}</tr>{body}</table>"
@@ -127,9 +125,7 @@ def compare(*vehicles: Model) -> Comparison:
         if not isinstance(vehicle, Model):
             raise UcritError(f"a comparison is of vehicles, got {vehicle!r}")
         if vehicle.dims:
-            raise UcritError(
-                f"a comparison needs scalar parameters, got arrays for {', '.join(vehicle.dims)}"
-            )
+            raise UcritError(f"a comparison needs scalar parameters, got arrays for {', '.join(vehicle.dims)}")
     return Comparison(tuple(map(_subject, vehicles, _names(vehicles))), _differing(vehicles))
 
 
@@ -141,10 +137,7 @@ def _subject(vehicle: Model, name: str) -> Subject:
 def _names(vehicles: tuple[Model, ...]) -> list[str]:
     """Names of the vehicles, numbered where two are the same."""
     names = [vehicle.info.name or type(vehicle).model_id() for vehicle in vehicles]
-    return [
-        f"{name} ({names[: i + 1].count(name)})" if names.count(name) > 1 else name
-        for i, name in enumerate(names)
-    ]
+    return [f"{name} ({names[: i + 1].count(name)})" if names.count(name) > 1 else name for i, name in enumerate(names)]
 
 
 def _differing(vehicles: tuple[Model, ...]) -> dict[str, tuple[str, tuple[float | None, ...]]]:
@@ -171,11 +164,7 @@ def _ranges(speeds: CriticalValues | None) -> str:
     if found == [(speeds.lower, speeds.upper)]:
         return "all"
     return " and ".join(
-        f"above {a:.5g}"
-        if math.isinf(b)
-        else f"below {b:.5g}"
-        if a in (0, -math.inf)
-        else f"{a:.5g} to {b:.5g}"
+        f"above {a:.5g}" if math.isinf(b) else f"below {b:.5g}" if a in (0, -math.inf) else f"{a:.5g} to {b:.5g}"
         for a, b in found
     )
 

@@ -192,9 +192,11 @@ def _boundaries(factor: PolyElement, functions: Any) -> list[dict[str, Any]]:
             for monom, c in factor.terms():
                 split[monom[i]][(*monom[:i], 0, *monom[i + 1 :])] = c
             value = readable_ratio(-ring.from_dict(split[0]), ring.from_dict(split[power])).xreplace(functions)
-            found.append({
-                "parameter": generator.name,
-                "power": power,
-                **typeset(value),
-            })
+            found.append(
+                {
+                    "parameter": generator.name,
+                    "power": power,
+                    **typeset(value),
+                }
+            )
     return found

@@ -12,8 +12,6 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
 
-import numpy as np
-
 from ..core.cache import cached
 from ..core.codegen import build
 from ..core.compiled import direction as direction_of
@@ -128,7 +126,9 @@ class Criteria:
         return tuple(c for c in self.conditions if not c.value(vehicle) > 0)
 
 
-def criteria(model: type[Model] | Model, *, direction: int | None = None, free: Sequence[str] | None = None) -> Criteria:
+def criteria(
+    model: type[Model] | Model, *, direction: int | None = None, free: Sequence[str] | None = None
+) -> Criteria:
     """Derive the conditions for stability in symbols.
 
     Parameters
@@ -165,12 +165,14 @@ def criteria(model: type[Model] | Model, *, direction: int | None = None, free: 
     piece = key if not values else f"criteria-{_short_hash(key)}"
     facts = cached(cls, piece, lambda: _derive(cls, sense, values))
     conditions = tuple(
-        Criterion(**{
-            **c,
-            "dropped": tuple(c["dropped"]),
-            "parameters": tuple(c["parameters"]),
-            "boundaries": tuple(Boundary(**b) for b in c["boundaries"]),
-        })
+        Criterion(
+            **{
+                **c,
+                "dropped": tuple(c["dropped"]),
+                "parameters": tuple(c["parameters"]),
+                "boundaries": tuple(Boundary(**b) for b in c["boundaries"]),
+            }
+        )
         for c in facts["conditions"]
     )
     return Criteria(cls.model_id(), conditions, facts["kind"], facts["settled"], facts["zeros"], facts["order"])

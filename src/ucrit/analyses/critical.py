@@ -191,7 +191,9 @@ def _range(vehicle: Model, name: str, lower: float | None, upper: float | None) 
     lo = least if lower is None else max(float(lower), least)
     hi = most if upper is None else min(float(upper), most)
     if not lo < hi:
-        raise UcritError(f"{name}: the range from {lo:g} to {hi:g} {declared.unit} is empty; {name} must be {declared.allowed}")
+        raise UcritError(
+            f"{name}: the range from {lo:g} to {hi:g} {declared.unit} is empty; {name} must be {declared.allowed}"
+        )
     return lo, hi
 
 
@@ -235,8 +237,8 @@ def _exact(vehicle: Model, name: str, lo: float, hi: float) -> Any:
 
 def _undamped(a: list[Polynomial]) -> list[Polynomial]:
     """Return p + p' for an even p: stable if and only if p has simple roots on the imaginary axis only."""
-    slopes = [[(k + 1) * c for c in p] for k, p in enumerate(a[1:])]
-    return [[x + y for x, y in zip_longest(p, q, fillvalue=Fraction(0))] for p, q in zip_longest(a, slopes, fillvalue=[])]
+    slopes: list[Polynomial] = [*([(k + 1) * c for c in p] for k, p in enumerate(a[1:])), []]
+    return [[x + y for x, y in zip_longest(p, q, fillvalue=Fraction(0))] for p, q in zip(a, slopes, strict=True)]
 
 
 def _between(lo: float, hi: float) -> Fraction:
@@ -293,7 +295,11 @@ def _matches(boundary: Boundary, vehicle: Model, value: float) -> bool:
     names = {k: float(v) for k, v in vehicle.values.items()}
     with np.errstate(all="ignore"):
         try:
-            result = eval(code, {"__builtins__": {}, "sqrt": math.sqrt, "cos": math.cos, "sin": math.sin, "tan": math.tan}, names)
+            result = eval(
+                code,
+                {"__builtins__": {}, "sqrt": math.sqrt, "cos": math.cos, "sin": math.sin, "tan": math.tan},
+                names,
+            )
         except (ZeroDivisionError, ValueError):
             return False
     return math.isclose(result, value**boundary.power, rel_tol=1e-9)

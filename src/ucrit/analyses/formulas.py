@@ -39,7 +39,7 @@ def _matrices(system: LinearSystem) -> list[Any]:
 
 
 def _matrix(M: Any) -> list[list[dict[str, str]]]:
-    return [[_plain(_shortest([e, sp.factor(e), sp.together(e)])) for e in M.row(i)] for i in range(M.rows)]
+    return [[_plain(_shortest([sp.factor(e), sp.together(e), e])) for e in M.row(i)] for i in range(M.rows)]
 
 
 def _shortest(candidates: Iterable[Any]) -> Any:

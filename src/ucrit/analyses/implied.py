@@ -25,11 +25,7 @@ def _vanishing(poly: PolyElement) -> set[int] | None:
     """Generators all zero where ``poly`` vanishes; ``None`` where it may be negative or that is unclear."""
     zeros: set[int] = set()
     for monom, c in poly.terms():
-        powers = [
-            (i, *sign_of_power(g, e))
-            for i, (g, e) in enumerate(zip(poly.ring.symbols, monom, strict=True))
-            if e
-        ]
+        powers = [(i, *sign_of_power(g, e)) for i, (g, e) in enumerate(zip(poly.ring.symbols, monom, strict=True)) if e]
         product = 1 if c > 0 else -1
         for _, sign, _ in powers:
             product *= sign or 0

@@ -60,9 +60,7 @@ class LostRoots:
         if self.criteria.kind == "neutral" and self.stable is None:
             how = "undamped to leading order"
         else:
-            how = {True: "decaying", False: "growing", None: "decaying under conditions of their own"}[
-                self.stable
-            ]
+            how = {True: "decaying", False: "growing", None: "decaying under conditions of their own"}[self.stable]
         return f"{number} to {where} like {like}, {how}"
 
 
@@ -159,18 +157,14 @@ def limit(model: type[Model] | Model, *, direction: int | None = None, **to: flo
     cls = model if isinstance(model, type) else type(model)
     sense = direction or (1 if isinstance(model, type) else direction_of(model))
     if not to:
-        raise UcritError(
-            f"{cls.model_id()}: name the parameters that go to infinity or 0, such as C=math.inf"
-        )
+        raise UcritError(f"{cls.model_id()}: name the parameters that go to infinity or 0, such as C=math.inf")
     check_names(cls, to)
     for name, value in to.items():
         if value not in (math.inf, 0):
             raise UcritError(f"{cls.model_id()}: the limit of {name} must be infinity or 0, got {value!r}")
     piece = f"limit{sense:+d}" + "".join(f"-{name}{'inf' if value else '0'}" for name, value in to.items())
     facts = cached(cls, piece, lambda: _derive(cls, sense, to))
-    lost = tuple(
-        LostRoots(**{**entry, "criteria": _criteria(cls, entry["criteria"])}) for entry in facts["lost"]
-    )
+    lost = tuple(LostRoots(**{**entry, "criteria": _criteria(cls, entry["criteria"])}) for entry in facts["lost"])
     return LimitResult(
         cls.model_id(),
         dict(to),
@@ -211,11 +205,7 @@ def _derive(cls: type[Model], direction: int, to: dict[str, float]) -> dict[str,
     system = symbolic(cls, direction)
     parameters = list(system.traced.parameters.values())
     polynomial, escapes = limit_polynomial(system, to)
-    orders = (
-        [limit_polynomial(system, dict(order))[0] for order in permutations(to.items())]
-        if len(to) < 4
-        else []
-    )
+    orders = [limit_polynomial(system, dict(order))[0] for order in permutations(to.items())] if len(to) < 4 else []
     left = [product(a, polynomial.functions) for a in polynomial.coefficients]
     lost = []
     for escape in escapes:

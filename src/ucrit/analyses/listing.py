@@ -74,9 +74,7 @@ def listing(kind: str | None = None) -> Listing:
         raise UcritError(f"there are no '{kind}' to list{near_match(kind, KINDS)}")
     models = () if kind == "vehicles" else tuple(_model(name) for name in model_names())
     vehicles = (
-        ()
-        if kind == "models"
-        else tuple(sorted(map(_vehicle, vehicle_names()), key=lambda e: (e.model, e.name)))
+        () if kind == "models" else tuple(sorted(map(_vehicle, vehicle_names()), key=lambda e: (e.model, e.name)))
     )
     return Listing(models, vehicles)
 
@@ -134,13 +132,9 @@ def _like(model: type[Model], other: Model | None, name: Model | str) -> Model:
         )
     theirs = type(other).declaration.parameters
     ours = model.declaration.parameters
-    missing = [
-        k for k, p in ours.items() if (k not in theirs or theirs[k].unit != p.unit) and p.default is None
-    ]
+    missing = [k for k, p in ours.items() if (k not in theirs or theirs[k].unit != p.unit) and p.default is None]
     if missing:
-        raise UcritError(
-            f"{other.info.name} does not give {', '.join(missing)} of the model {model.model_id()}"
-        )
+        raise UcritError(f"{other.info.name} does not give {', '.join(missing)} of the model {model.model_id()}")
     info = other.info
     values = {k: other.values[k] for k, p in ours.items() if k in theirs and theirs[k].unit == p.unit}
     return model(**values).with_info(name=info.name, source=info.source, note=info.note)

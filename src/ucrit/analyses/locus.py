@@ -117,9 +117,7 @@ def locus(
     """
     name = parameter_name(vehicle, parameter)
     if vehicle.dims:
-        raise UcritError(
-            f"a root locus is that of one vehicle: give one value each for {', '.join(vehicle.dims)}"
-        )
+        raise UcritError(f"a root locus is that of one vehicle: give one value each for {', '.join(vehicle.dims)}")
     if isinstance(points, bool) or not isinstance(points, int) or points < 2:
         raise UcritError(f"a root locus needs 2 points or more, got {points!r}")
     lo, hi = _range(vehicle, name, lower, upper)

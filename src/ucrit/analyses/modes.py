@@ -95,9 +95,7 @@ class Modes(Tabular):
     def list(self) -> list[Mode]:
         """Return the modes of a vehicle with scalar parameters, one entry for a conjugate pair."""
         if self.eigenvalues.ndim != 1:
-            raise UcritError(
-                "modes of a vehicle with array parameters are arrays: use .eigenvalues and .participation"
-            )
+            raise UcritError("modes of a vehicle with array parameters are arrays: use .eigenvalues and .participation")
         kept = [k for k, value in enumerate(self.eigenvalues) if value.imag >= 0]
         names = _distinct([(self._name(k), self.eigenvalues[k]) for k in kept])
         return [
@@ -121,9 +119,7 @@ class Modes(Tabular):
 
     def table(self) -> Table:
         """Return eigenvalues, frequency, damping ratio and participation with their units."""
-        coords = [
-            Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.vehicle.dims.items()
-        ]
+        coords = [Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.vehicle.dims.items()]
         dims = tuple(self.vehicle.dims)
         names = np.arange(1, self.eigenvalues.shape[-1] + 1) if dims else np.array(self.names)
         coords += [Series("mode", ("mode",), names), Series("state", ("state",), np.array(self.labels))]

@@ -28,16 +28,8 @@ def in_s(coefficients: Sequence[Any]) -> Texts:
         sign = "-" if negative else "+"
         one = size == 1 and k > 0
         plain = "" if one else f"({typeset.text(size)})" if size.is_Add and k else typeset.text(size)
-        texts.append(
-            (sign, plain + ("*" if plain and k else "") + ("" if not k else "s" if k == 1 else f"s**{k}"))
-        )
-        inner = (
-            ""
-            if one
-            else rf"\left({typeset.latex(size)}\right)"
-            if size.is_Add and k
-            else typeset.latex(size)
-        )
+        texts.append((sign, plain + ("*" if plain and k else "") + ("" if not k else "s" if k == 1 else f"s**{k}")))
+        inner = "" if one else rf"\left({typeset.latex(size)}\right)" if size.is_Add and k else typeset.latex(size)
         latexs.append((sign, inner + ("" if not k else " s" if k == 1 else f" s^{{{k}}}")))
         power = "" if not k else "<mi>s</mi>" if k == 1 else f"<msup><mi>s</mi><mn>{k}</mn></msup>"
         body = "" if one else typeset.mathml(size)
@@ -81,9 +73,7 @@ def factored_in_s(polynomial: Any, functions: Mapping[Any, Any]) -> Texts:
     result = {key: "" if constant == 1 else "-" if constant == -1 else head[key] for key in head}
     for texts, m, several in pieces:
         body = f"({texts['text']})" if several else texts["text"]
-        result["text"] += (
-            ("*" if result["text"] not in ("", "-") else "") + body + (f"**{m}" if m > 1 else "")
-        )
+        result["text"] += ("*" if result["text"] not in ("", "-") else "") + body + (f"**{m}" if m > 1 else "")
         inner = rf"\left({texts['latex']}\right)" if several else texts["latex"]
         result["latex"] += " " + inner + (f"^{{{m}}}" if m > 1 else "")
         row = f"<mrow><mo>(</mo>{texts['mathml']}<mo>)</mo></mrow>" if several else texts["mathml"]

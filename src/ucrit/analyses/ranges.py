@@ -92,9 +92,7 @@ def _parts(parts: list[str], unit: str, thing: str, text: str) -> tuple[float, f
 def _count(text: str, thing: str) -> int:
     value = float(text)
     if not value.is_integer() or not 2 <= value <= MAX_COUNT:
-        raise UcritError(
-            f"{thing}: the number of points must be a whole number from 2 to {MAX_COUNT}, got {text}"
-        )
+        raise UcritError(f"{thing}: the number of points must be a whole number from 2 to {MAX_COUNT}, got {text}")
     return int(value)
 
 

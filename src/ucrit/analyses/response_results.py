@@ -38,13 +38,9 @@ class _Response(Tabular):
 
     def table(self) -> Table:
         """Return the response of each output over the axis, with units."""
-        coords = [
-            Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.vehicle.dims.items()
-        ]
+        coords = [Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.vehicle.dims.items()]
         axis = self._axis
-        return Table(
-            self._title, self.vehicle, (*coords, axis), self._series(), (*self.vehicle.dims, axis.name)
-        )
+        return Table(self._title, self.vehicle, (*coords, axis), self._series(), (*self.vehicle.dims, axis.name))
 
     @property
     def _title(self) -> str:
@@ -159,9 +155,7 @@ class TimeResponse(_Response):
 
     def _series(self) -> tuple[Series, ...]:
         dims = (*self.vehicle.dims, "time")
-        return tuple(
-            Series(name, dims, self[name], unit) for name, unit in zip(self.outputs, self.units, strict=True)
-        )
+        return tuple(Series(name, dims, self[name], unit) for name, unit in zip(self.outputs, self.units, strict=True))
 
     @property
     def _title(self) -> str:

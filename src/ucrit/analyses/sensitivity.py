@@ -88,9 +88,7 @@ class Sensitivity(Tabular):
     def table(self) -> Table:
         """Return the slopes, one variable a parameter."""
         dims = tuple(self.vehicle.dims)
-        coords = [
-            Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.vehicle.dims.items()
-        ]
+        coords = [Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.vehicle.dims.items()]
         coords.append(Series("mode", ("mode",), np.array(self.names)))
         data = list(complex_series("eigenvalue", (*dims, "mode"), self.eigenvalues, "1/s"))
         for name, slope in self.slopes.items():

@@ -103,8 +103,7 @@ class ModelDescription:
                 for p in self.parameters
             ],
             "variables": [
-                {"name": v.name, "unit": v.unit, "meaning": v.meaning, "order": v.order}
-                for v in self.variables
+                {"name": v.name, "unit": v.unit, "meaning": v.meaning, "order": v.order} for v in self.variables
             ],
             "inputs": [_quantity(q) for q in self.inputs],
             "outputs": [_quantity(q) for q in self.outputs],
@@ -133,8 +132,7 @@ class ModelDescription:
             for p in self.parameters
         )
         equations = "".join(
-            f'<p><math display="block"><mrow>{f.mathml}<mo>=</mo><mn>0</mn></mrow></math></p>'
-            for f in self.equations
+            f'<p><math display="block"><mrow>{f.mathml}<mo>=</mo><mn>0</mn></mrow></math></p>' for f in self.equations
         )
         return f"<b>{escape(self.title)}</b><table>{rows}</table>{equations}"
 
@@ -195,9 +193,7 @@ def resolve(subject: type[Model] | Model | str | os.PathLike[str]) -> tuple[type
     if name in vehicle_names() or name.endswith(".toml") or os.sep in name or os.path.isfile(name):
         vehicle = load(name)
         return type(vehicle), vehicle
-    raise UcritError(
-        f"there is no model or vehicle '{name}'{near_match(name, [*model_names(), *vehicle_names()])}"
-    )
+    raise UcritError(f"there is no model or vehicle '{name}'{near_match(name, [*model_names(), *vehicle_names()])}")
 
 
 def _info(vehicle: Model) -> dict[str, str]:

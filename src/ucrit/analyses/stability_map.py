@@ -59,12 +59,8 @@ class StabilityMap(Tabular):
 
     def table(self) -> Table:
         """Return the map with its coordinates."""
-        coords = tuple(
-            Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.coords.items()
-        )
-        return Table(
-            "stability map", self.vehicle, coords, (Series("stable", self.dims, self.stable),), self.dims
-        )
+        coords = tuple(Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.coords.items())
+        return Table("stability map", self.vehicle, coords, (Series("stable", self.dims, self.stable),), self.dims)
 
 
 def stability_map(vehicle: Model, /, **grid: Sequence[float] | Array | str) -> StabilityMap:
@@ -98,9 +94,7 @@ def stability_map(vehicle: Model, /, **grid: Sequence[float] | Array | str) -> S
     if not grid:
         raise UcritError("a stability map needs ranges, such as b=[0.1, 0.2], k=[1e4, 1e5]")
     if extra := [name for name in vehicle.dims if name not in grid]:
-        raise UcritError(
-            f"a stability map is that of one vehicle: give one value each for {', '.join(extra)}"
-        )
+        raise UcritError(f"a stability map is that of one vehicle: give one value each for {', '.join(extra)}")
     mapped = vehicle.with_(**read_ranges(vehicle, grid))
     coords = {name: mapped.dims[name] for name in grid}
     shape = tuple(x.size for x in coords.values())
@@ -108,9 +102,7 @@ def stability_map(vehicle: Model, /, **grid: Sequence[float] | Array | str) -> S
     for count in shape:
         points *= count
     if points > MAX_POINTS:
-        raise UcritError(
-            f"{type(vehicle).model_id()}: a map of {points:,} points is too large; at most {MAX_POINTS:,}"
-        )
+        raise UcritError(f"{type(vehicle).model_id()}: a map of {points:,} points is too large; at most {MAX_POINTS:,}")
     return StabilityMap(mapped, coords, _decide(mapped, coords, shape))
 
 

@@ -101,18 +101,14 @@ def static_stability(vehicle: Model, displaced: str | None = None) -> StaticStab
     angles = [name for name, v in declared.variables.items() if v.unit == "rad"]
     choices = (["V"] if body_fixed else []) + angles
     if not choices:
-        raise UcritError(
-            f"{cls.model_id()}: static stability needs the variables V [m/s] and r [rad/s], or an angle"
-        )
+        raise UcritError(f"{cls.model_id()}: static stability needs the variables V [m/s] and r [rad/s], or an angle")
     name = displaced or choices[0]
     if name not in choices:
         raise UcritError(f"{cls.model_id()}: '{name}' cannot be displaced{near_match(name, choices)}")
     turning = "r" if name == "V" else name
     answer, slope, direct = _answer(vehicle, name, turning)
     sense = direction(vehicle)
-    formula = (
-        cached(cls, f"static{sense:+d}-{name}", lambda: _derive(cls, sense, name, turning)) if direct else ""
-    )
+    formula = cached(cls, f"static{sense:+d}-{name}", lambda: _derive(cls, sense, name, turning)) if direct else ""
     stable = slope > 0 if name == "V" else slope < 0
     speeds = tuple(c.value for c in critical(vehicle)) if declared.speed else ()
     return StaticStability(vehicle, name, answer, slope, formula, stable, verdict(vehicle).stable, speeds)

@@ -91,7 +91,7 @@ class SteadyTurn:
 
     @property
     def characteristic_speed(self) -> Any:
-        """Speed [m/s] at which an understeering car needs twice a neutral one's steer angle; nan for others."""
+        """Speed [m/s] at which an understeering car needs twice a neutral one's steer angle, else nan."""
         L, K = self._values
         with np.errstate(all="ignore"):
             return _plain(np.where(L * K > 0, np.sqrt(L / K), np.nan))
@@ -109,7 +109,7 @@ class SteadyTurn:
         return _plain(self._over(U) / R)
 
     def yaw_rate_gain(self, speed: Any) -> Any:
-        """Return yaw rate per steer angle [(rad/s)/rad] at speeds [m/s], of shape (..., *shape of speeds)."""
+        """Return yaw rate per steer angle [(rad/s)/rad] at speeds [m/s], shape (..., *speed.shape)."""
         U = np.asarray(speed, dtype=float)
         with np.errstate(divide="ignore"):
             return _plain(U / self._over(U))
@@ -144,9 +144,7 @@ class SteadyTurn:
         gradient += f" = {self.gradient_deg_per_g:.4g} deg/g"
         lines = [head, f"    understeer gradient K = {gradient}", f"    K = {self.gradient_formula}"]
         if self.handling == "understeer":
-            lines.append(
-                f"    characteristic speed {self.characteristic_speed:.5g} m/s, where the yaw-rate gain is"
-            )
+            lines.append(f"    characteristic speed {self.characteristic_speed:.5g} m/s, where the yaw-rate gain is")
             lines.append(f"    largest: {self.largest_yaw_rate_gain:.4g} (rad/s)/rad")
         if self.handling == "oversteer":
             lines.append(f"    critical speed {self.critical_speed:.5g} m/s, where the gains are infinite")
@@ -233,9 +231,7 @@ def _derive(cls: type[Model], steer: str) -> dict[str, Any]:
     for monom, c in below.terms():
         parts.setdefault(monom[at], {})[(*monom[:at], 0, *monom[at + 1 :])] = c
     if any(m[at] for m in above.itermonoms()) or set(parts) != {0, 2}:
-        raise UcritError(
-            f"{cls.model_id()}: the steer angle of a steady turn is not of the form L/R + K U**2/R"
-        )
+        raise UcritError(f"{cls.model_id()}: the steer angle of a steady turn is not of the form L/R + K U**2/R")
     ratios = (readable_ratio(ring.from_dict(parts[k]), above).xreplace(dict(found.functions)) for k in (0, 2))
     L, K = map(sign_inside, ratios)
     symbols = list(system.traced.parameters.values())

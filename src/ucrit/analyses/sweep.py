@@ -77,9 +77,7 @@ class Sweep(Tabular):
         return Table("sweep", self.vehicle, (*coords, Series("mode", ("mode",), numbers)), data, dims)
 
 
-def sweep(
-    vehicle: Model, /, *, progress: Progress | None = None, **ranges: Sequence[float] | Array | str
-) -> Sweep:
+def sweep(vehicle: Model, /, *, progress: Progress | None = None, **ranges: Sequence[float] | Array | str) -> Sweep:
     """Return eigenvalues and stability for all combinations of some parameters' values.
 
     Parameters
@@ -167,12 +165,8 @@ def _evaluate(vehicle: Model) -> tuple[Array, ...]:
     growth = np.where(rigid, -np.inf, values.real).max(axis=-1)
     damping = np.where(rigid, np.inf, -values.real / size).min(axis=-1)
     functions = compiled(type(vehicle), direction(vehicle))
-    a = np.stack(
-        [np.broadcast_to(x, shape) for x in coefficients(vehicle)[functions.structural_zeros :]], axis=-1
-    )
+    a = np.stack([np.broadcast_to(x, shape) for x in coefficients(vehicle)[functions.structural_zeros :]], axis=-1)
     if not a[..., -1].all():
         raise UcritError(f"{type(vehicle).model_id()}: the equations are singular for these parameters")
-    decided = (
-        hurwitz_stable(deciding_coefficients(vehicle)) if a.shape[-1] > 1 else np.ones(shape, dtype=bool)
-    )
+    decided = hurwitz_stable(deciding_coefficients(vehicle)) if a.shape[-1] > 1 else np.ones(shape, dtype=bool)
     return values, growth, right_half_plane(a), np.broadcast_to(decided, shape), damping

@@ -69,7 +69,7 @@ class TransferFunction:
         return values[: len(self.numerator)], values[len(self.numerator) :]
 
     def __call__(self, s: Any) -> Array:
-        """Return complex values at s [1/s], of shape (..., *shape of s) for array parameters of shape (...)."""
+        """Return complex values at s [1/s], shape (..., *s.shape) for array parameters of shape (...)."""
         s = np.asarray(s, dtype=complex)
         above, below = (self._at(part, s) for part in self.coefficients())
         with np.errstate(all="ignore"):
@@ -147,15 +147,11 @@ class TransferFunction:
             return found
         for pole in self.cancellations():
             word = "growing " if pole.real > 0 else ""
-            found.append(
-                f"the {word}motion of pole {_number(pole)} is cancelled by a zero for these parameters"
-            )
+            found.append(f"the {word}motion of pole {_number(pole)} is cancelled by a zero for these parameters")
         right = self._right_zeros()
         if right:
             where = ", ".join(map(_number, right))
-            found.append(
-                f"non-minimum phase: zero{'s' if len(right) > 1 else ''} at {where} 1/s" + self._turns(right)
-            )
+            found.append(f"non-minimum phase: zero{'s' if len(right) > 1 else ''} at {where} 1/s" + self._turns(right))
         if math.isinf(self.static_gain):
             found.append("the input is integrated: a constant input gives an output that grows without bound")
         return found
@@ -238,9 +234,7 @@ def transfer(
         piece += "-" + hashlib.sha256(repr(sorted(given.items())).encode()).hexdigest()[:16]
     facts = cached(cls, piece, lambda: _derive(cls, sense, input, output, given))
     facts = {key: tuple(value) if isinstance(value, list) else value for key, value in facts.items()}
-    return TransferFunction(
-        cls.model_id(), input, output, _unit(cls, input, output), vehicle=vehicle, **facts
-    )
+    return TransferFunction(cls.model_id(), input, output, _unit(cls, input, output), vehicle=vehicle, **facts)
 
 
 def _unit(cls: type[Model], input: str, output: str) -> str:
@@ -262,9 +256,7 @@ def _unit(cls: type[Model], input: str, output: str) -> str:
     )
 
 
-def _derive(
-    cls: type[Model], direction: int, input: str, output: str, given: Mapping[str, Any]
-) -> dict[str, Any]:
+def _derive(cls: type[Model], direction: int, input: str, output: str, given: Mapping[str, Any]) -> dict[str, Any]:
     from ..core import typeset
     from ..core.codegen import generate
     from ..core.cramer import cramer
@@ -278,9 +270,7 @@ def _derive(
         formulas = {names[k]: parse(v, names, f"{cls.model_id()}: {k}") for k, v in given.items()}
         system = system.substituted(formulas)
     found = cramer(system, input, output)
-    above, below = (
-        [product(c, found.functions) for c in found.in_s(p)] for p in (found.numerator, found.denominator)
-    )
+    above, below = ([product(c, found.functions) for c in found.in_s(p)] for p in (found.numerator, found.denominator))
     top, bottom = (
         factored_in_s(found.numerator, found.functions),
         factored_in_s(found.denominator, found.functions),

@@ -45,7 +45,9 @@ class Verdict:
             how = "statically" if self.static == "unstable" else "dynamically"
             text = f"{how} unstable: {self.growing} growing root{'s' if self.growing > 1 else ''}"
         elif self.marginal:
-            text = f"neutral: {self.marginal} root{'s' if self.marginal > 1 else ''} on the imaginary axis, nothing grows"
+            text = (
+                f"neutral: {self.marginal} root{'s' if self.marginal > 1 else ''} on the imaginary axis, nothing grows"
+            )
         else:
             text = "asymptotically stable: every disturbance dies out"
         if self.rigid_positions:

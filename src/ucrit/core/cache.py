@@ -77,15 +77,22 @@ def _write(path: Path | None, value: Any) -> None:
         return
 
 
-@cache
 def fingerprint(model: type[Model]) -> str:
     """Return a hash of all that the derived facts of a model depend on."""
+    found: str = _fingerprint(model)
+    return found
+
+
+def _hash_of(model: type[Model]) -> str:
     digest = hashlib.sha256(repr((sys.version_info[:2], model.__qualname__)).encode())
     for stamp in _package_stamps():
         digest.update(repr(stamp).encode())
     for piece in _class_pieces(model, set()):
         digest.update(piece.encode())
     return digest.hexdigest()
+
+
+_fingerprint: Any = cache(_hash_of)
 
 
 @cache

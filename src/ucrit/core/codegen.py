@@ -72,9 +72,14 @@ def build(source: str, name: str, *, exact: bool = False) -> Callable[..., tuple
 class _ExactFunctions:
     """NumPy's functions for fractions: rounded to a double, then taken as that exact number."""
 
-    def __getattr__(self, name: str) -> Callable[..., Any]:
-        import numpy
+    def __getattr__(self, name: str) -> Any:
         from fractions import Fraction
 
-        value = getattr(numpy, name)
-        return (lambda *x: Fraction(float(value(*map(float, x))))) if callable(value) else Fraction(value)
+        import numpy
+
+        function = getattr(numpy, name)
+
+        def rounded(*x: Any) -> Fraction:
+            return Fraction(float(function(*map(float, x))))
+
+        return rounded if callable(function) else Fraction(function)

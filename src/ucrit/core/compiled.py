@@ -163,6 +163,7 @@ class Compiled:
 def _derive(piece: str, *arguments: Any) -> Any:
     """Derive facts that are not cached yet; not imported before, because that imports SymPy."""
     from . import derive
+
     return getattr(derive, f"{piece}_facts")(*arguments)
 
 
@@ -236,16 +237,20 @@ class Motion:
         return np.array(np.broadcast_arrays(*values, np.zeros(np.shape(w)[1:]))[:-1], dtype=float)
 
 
-@cache
+_compiled: Any = cache(Compiled)
+_motion: Any = cache(Motion)
+
+
 def compiled(model: type[Model], direction: int = 1) -> Compiled:
     """Return the compiled functions of a model class."""
-    return Compiled(model, direction)
+    found: Compiled = _compiled(model, direction)
+    return found
 
 
-@cache
 def motion(model: type[Model]) -> Motion:
     """Return the compiled non-linear motion of a model class."""
-    return Motion(model)
+    found: Motion = _motion(model)
+    return found
 
 
 def _by_direction(

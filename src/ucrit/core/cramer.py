@@ -85,10 +85,7 @@ def _bordered(system: LinearSystem, input: str, output: str) -> list[list[list[A
     model, top = system.traced.model, len(system.P)
     check_names(model, input, output)
     n, column = system.P[0].rows, list(model.declaration.inputs).index(input)
-    rows = [
-        [[system.P[k][i, j] for k in range(top)] for j in range(n)] + [[-system.Q[i, column]]]
-        for i in range(n)
-    ]
+    rows = [[[system.P[k][i, j] for k in range(top)] for j in range(n)] + [[-system.Q[i, column]]] for i in range(n)]
     declared = list(model.declaration.outputs)
     if output in declared:
         i = declared.index(output)

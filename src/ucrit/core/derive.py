@@ -11,11 +11,13 @@ from .model import Model
 from .nonlinear import solve_for_highest
 from .trace import trace
 
+_symbolic: Any = cache(linear_system)
 
-@cache
+
 def symbolic(model: type[Model], direction: int = 1) -> LinearSystem:
     """Return the linear system of a model in symbols, derived once per process."""
-    return linear_system(model, direction)
+    found: LinearSystem = _symbolic(model, direction)
+    return found
 
 
 def linear_facts(model: type[Model], direction: int) -> dict[str, Any]:
@@ -42,9 +44,7 @@ def slope_facts(model: type[Model], direction: int) -> dict[str, Any]:
     """Derive how the explicit form changes with every parameter."""
     system = symbolic(model, direction)
     parameters = list(system.traced.parameters.values())
-    slopes = [
-        entry.diff(p) for p in parameters for block in (system.explicit.L, system.explicit.R) for entry in block
-    ]
+    slopes = [entry.diff(p) for p in parameters for block in (system.explicit.L, system.explicit.R) for entry in block]
     static = system.polynomial.coefficients[system.polynomial.zeros].as_expr()
     return {
         "slopes": generate("slopes", [parameters], slopes),

@@ -78,7 +78,7 @@ def parse_vehicle(
             raise UcritError(f"{where}: {key} must be a text in quotes, got {content[key]!r}")
     parameters = content.get("parameters")
     if "model" not in content or not isinstance(parameters, dict):
-        raise UcritError(f"{where}: a vehicle file needs model = \"...\" and a [parameters] table")
+        raise UcritError(f'{where}: a vehicle file needs model = "..." and a [parameters] table')
     try:
         model = find_model(content["model"])
         vehicle = model(**{**parameters, **(changes or {}), **_speed(model, at_speed)})
@@ -115,7 +115,7 @@ def vehicle_template(model: type[Model], name: str | None = None, vehicle: Model
     ]
     if info and info.note:
         lines.append(f"note = {_quoted(info.note)}")
-    lines += ["", "[parameters]   # a number is in the SI unit shown; a text carries its own: \"110 km/h\""]
+    lines += ["", '[parameters]   # a number is in the SI unit shown; a text carries its own: "110 km/h"']
     for key, parameter in model.declaration.parameters.items():
         comment = f"{parameter.meaning} [{parameter.unit}], {parameter.allowed}"
         value = vehicle.values[key] if vehicle else parameter.default

@@ -32,9 +32,7 @@ def lagrange(
     residuals = []
     for position, dq, _ in q:
         momentum = sp.diff(kinetic, dq)
-        rate = sum(
-            (sp.diff(momentum, x) * dx + sp.diff(momentum, dx) * ddx for x, dx, ddx in q), start=sp.S.Zero
-        )
+        rate = sum((sp.diff(momentum, x) * dx + sp.diff(momentum, dx) * ddx for x, dx, ddx in q), start=sp.S.Zero)
         work = sum((force * sp.diff(sp.sympify(velocity), dq) for force, velocity in forces), start=sp.S.Zero)
         residuals.append(rate - sp.diff(kinetic - potential, position) - work)
     return residuals + constraints, multipliers

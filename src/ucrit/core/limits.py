@@ -102,9 +102,7 @@ def _symbol(polynomial: CharacteristicPolynomial, name: str, value: float) -> An
 def _one(polynomial: CharacteristicPolynomial, symbol: Any, sign: int) -> tuple[Any, list[Escape]]:
     index = polynomial.ring.symbols.index(symbol)
     points = {
-        k: max(sign * monom[index] for monom in a.itermonoms())
-        for k, a in enumerate(polynomial.coefficients)
-        if a
+        k: max(sign * monom[index] for monom in a.itermonoms()) for k, a in enumerate(polynomial.coefficients) if a
     }
     hull, a = _upper_hull(sorted(points.items())), polynomial.coefficients
     top = max(points.values())
@@ -137,11 +135,7 @@ def _upper_hull(points: list[tuple[int, int]]) -> list[tuple[int, int]]:
 def _leading(a: Any, index: int, sign: int, degree: Fraction) -> Any:
     """Terms of one degree in a parameter, with that power of it taken out."""
     return a.ring.from_dict(
-        {
-            (*monom[:index], 0, *monom[index + 1 :]): c
-            for monom, c in a.terms()
-            if sign * monom[index] == degree
-        }
+        {(*monom[:index], 0, *monom[index + 1 :]): c for monom, c in a.terms() if sign * monom[index] == degree}
     )
 
 
@@ -152,9 +146,7 @@ def _primitive(polynomial: CharacteristicPolynomial, coefficients: list[Any]) ->
         common = common.gcd(a)
     if coefficients[-1].LC * common.LC < 0:
         common = -common
-    return type(polynomial)(
-        polynomial.ring, tuple(a.exquo(common) for a in coefficients), polynomial.functions
-    )
+    return type(polynomial)(polynomial.ring, tuple(a.exquo(common) for a in coefficients), polynomial.functions)
 
 
 def check_names(model: type[Model], names: Mapping[str, Any]) -> None:
@@ -162,6 +154,4 @@ def check_names(model: type[Model], names: Mapping[str, Any]) -> None:
     declared = model.declaration.parameters
     for name in names:
         if name not in declared:
-            raise UcritError(
-                f"{model.model_id()}: there is no parameter '{name}'{near_match(name, declared)}"
-            )
+            raise UcritError(f"{model.model_id()}: there is no parameter '{name}'{near_match(name, declared)}")

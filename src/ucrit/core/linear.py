@@ -175,8 +175,7 @@ def _cleared_row(entries: Row, domain: Any, ring: PolyRing, s: PolyElement) -> l
             if numerator:
                 common = common.lcm(denominator)
     return [
-        sum((num * common.exquo(den) * s**k for k, (num, den) in enumerate(chain) if num), ring.zero)
-        for chain in pairs
+        sum((num * common.exquo(den) * s**k for k, (num, den) in enumerate(chain) if num), ring.zero) for chain in pairs
     ]
 
 
@@ -192,7 +191,9 @@ def _lift(poly: PolyElement, ring: PolyRing) -> PolyElement:
     return ring.from_dict({(*monom, 0): int(c) for monom, c in poly.terms()})
 
 
-def _collect(determinant: PolyElement, symbols: Sequence[Any], functions: Mapping[Any, Any]) -> CharacteristicPolynomial:
+def _collect(
+    determinant: PolyElement, symbols: Sequence[Any], functions: Mapping[Any, Any]
+) -> CharacteristicPolynomial:
     """Split a polynomial in parameters and ``s`` by powers of ``s``, and divide by what all parts share."""
     ring = PolyRing(tuple(symbols), sp.ZZ, "lex")
     parts: dict[int, dict[tuple[int, ...], Any]] = {}

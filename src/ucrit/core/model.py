@@ -117,9 +117,7 @@ class Model:
         for name, parameter in declared.items():
             value = values.get(name, parameter.default)
             if value is None:
-                raise UcritError(
-                    f"{model}: {parameter.meaning} {name} is missing; it must be {parameter.allowed}"
-                )
+                raise UcritError(f"{model}: {parameter.meaning} {name} is missing; it must be {parameter.allowed}")
             checked[name] = parameter.check(value, model)
         self.__dict__.update(checked, _values=MappingProxyType(checked), _shared=MappingProxyType({}))
 
@@ -244,9 +242,7 @@ def _declare(cls: type[Model]) -> Declaration:
                 found.by_name[name] = replace(value, name=name)
             elif name in found.by_name:
                 found.by_name.pop(name)  # a base's parameter fixed to a number, or a variable removed
-    declaration = Declaration(
-        found.of(Parameter), found.of(Variable), found.of(Input), found.of(Output)
-    )
+    declaration = Declaration(found.of(Parameter), found.of(Variable), found.of(Input), found.of(Output))
     if sum(p.is_speed for p in declaration.parameters.values()) > 1:
         raise ModelError(f"{cls.__name__}: only one parameter can be the speed")
     return declaration

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import sympy as sp
 
@@ -49,5 +48,3 @@ def solve_for_highest(traced: Traced) -> Explicit:
         raise ModelError(f"{traced.model.model_id()}: the equations are not linear in the highest derivatives")
     rest = dict.fromkeys(z, sp.S.Zero)
     return Explicit(M, sp.Matrix([-r.xreplace(rest) for r in residuals]))
-
-

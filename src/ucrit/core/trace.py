@@ -50,14 +50,21 @@ class Traced:
 
     def time_derivative(self, expression: Expr) -> Expr:
         """Differentiate along the motion by the chain rule; the highest derivatives must not occur."""
-        terms = (sp.diff(expression, low) * high for chain in self.q for low, high in zip(chain, chain[1:], strict=False))
+        terms = (
+            sp.diff(expression, low) * high for chain in self.q for low, high in zip(chain, chain[1:], strict=False)
+        )
         return sp.Add(*terms)
 
 
 def parameter_symbol(parameter: Parameter, direction: int | None) -> sp.Symbol:
     """Return the symbol of a parameter with its declared sign as an assumption."""
     sign = direction if parameter.is_speed and parameter.sign is None else parameter.sign
-    assumption = {1: {"positive": True}, -1: {"negative": True}, 0: {"nonnegative": True}, None: {"real": True}}
+    assumption = {
+        1: {"positive": True},
+        -1: {"negative": True},
+        0: {"nonnegative": True},
+        None: {"real": True},
+    }
     return sp.Symbol(parameter.name, **assumption[sign])
 
 
@@ -89,16 +96,14 @@ def trace(model: type[Model], direction: int | None = 1, method: str = "") -> Tr
     declared = model.declaration
     symbols = {name: parameter_symbol(p, direction) for name, p in declared.parameters.items()}
     instance = symbolic_instance(model, symbols)
-    q = [
-        tuple(sp.Symbol(v.label(k), real=True) for k in range(v.order + 1)) for v in declared.variables.values()
-    ]
+    q = [tuple(sp.Symbol(v.label(k), real=True) for k in range(v.order + 1)) for v in declared.variables.values()]
     u = tuple(sp.Symbol(name, real=True) for name in declared.inputs)
     groups = _groups(model, q, u)
     residuals, multipliers = _residuals(model, instance, groups, q, method)
     q = [*q, *((m,) for m in multipliers)]
     if len(residuals) != len(q):
         raise ModelError(f"{model.model_id()}: {len(residuals)} equations for {len(q)} variables")
-    outputs = call(instance.outputs, groups) if hasattr(model, "outputs") else {}
+    outputs = call(instance.outputs, groups) if hasattr(instance, "outputs") else {}
     _check_output_names(model, outputs)
     traced = Traced(
         model=model,
@@ -118,9 +123,7 @@ def trace(model: type[Model], direction: int | None = 1, method: str = "") -> Tr
 
 def _groups(model: type[Model], q: list[tuple[sp.Symbol, ...]], u: tuple[sp.Symbol, ...]) -> dict[str, Names]:
     names = list(model.declaration.variables)
-    by_order = [
-        {name: chain[k] for name, chain in zip(names, q, strict=True) if k < len(chain)} for k in range(3)
-    ]
+    by_order = [{name: chain[k] for name, chain in zip(names, q, strict=True) if k < len(chain)} for k in range(3)]
     groups = {group: Names(group, values) for group, values in zip(("x", "dx", "ddx"), by_order, strict=True)}
     return {**groups, "u": Names("u", dict(zip(model.declaration.inputs, u, strict=True)))}
 
@@ -128,9 +131,7 @@ def _groups(model: type[Model], q: list[tuple[sp.Symbol, ...]], u: tuple[sp.Symb
 def _residuals(
     model: type[Model], instance: Model, groups: dict[str, Names], q: list[tuple[sp.Symbol, ...]], method: str
 ) -> tuple[list[Expr], list[sp.Symbol]]:
-    statement = method or next(
-        name for base in model.__mro__ for name in STATEMENTS if name in vars(base)
-    )
+    statement = method or next(name for base in model.__mro__ for name in STATEMENTS if name in vars(base))
     if statement == "kinetic_energy":
         from .lagrange import lagrange
 
@@ -156,10 +157,14 @@ def _check_output_names(model: type[Model], outputs: Mapping[str, Any]) -> None:
 
 
 def _basic_motion(
-    model: type[Model], instance: Model, q: list[tuple[sp.Symbol, ...]], u: tuple[sp.Symbol, ...], declared: Any
+    model: type[Model],
+    instance: Model,
+    q: list[tuple[sp.Symbol, ...]],
+    u: tuple[sp.Symbol, ...],
+    declared: Any,
 ) -> dict[sp.Symbol, Expr]:
     basic: dict[sp.Symbol, Expr] = {symbol: sp.S.Zero for chain in q for symbol in chain} | dict.fromkeys(u, sp.S.Zero)
-    given = instance.basic_motion() if hasattr(model, "basic_motion") else {}
+    given = instance.basic_motion() if hasattr(instance, "basic_motion") else {}
     names = list(declared.variables)
     for group, values in given.items():
         for name, value in values.items():
@@ -178,5 +183,3 @@ def _check_basic_motion(traced: Traced) -> None:
             raise ModelError(
                 f"{traced.model.model_id()}: equation {number} does not hold on the basic motion, {left} is left"
             )
-
-

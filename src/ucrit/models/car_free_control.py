@@ -22,9 +22,7 @@ class CarFreeControl(Model):
     C_f: float = param("N/rad", "cornering coefficient of the front axle", above=0)
     C_r: float = param("N/rad", "cornering coefficient of the rear axle", above=0)
     c_s: float = param("N m s/rad", "damping of the steering at the steer axis", at_least=0)
-    k_s: float = param(
-        "N m/rad", "stiffness that centres the steering, or of a held steering column", at_least=0
-    )
+    k_s: float = param("N m/rad", "stiffness that centres the steering, or of a held steering column", at_least=0)
     U: float = speed("forward speed")
 
     V = state("m/s", "lateral velocity of the centre of mass", motion="weave")
