@@ -30,8 +30,8 @@ from ucrit.checks.derivations import accelerations
 from ucrit.checks.states import differs, random_states
 from ucrit.checks.subject import Subject
 from ucrit.checks.suite import run
-from ucrit.core.compiled import motion
 from ucrit.core.model import Model
+from ucrit.core.motion import motion
 from ucrit.core.trace import trace
 
 REQUIRED = 0.99

@@ -1,4 +1,6 @@
-"""Make a virtual environment with ucrit, its locked dependencies and its tests' tools: ``python3 tools/setup.py .venv``.
+"""Make a virtual environment with ucrit, its locked dependencies and its tests' tools.
+
+Run as ``python3 tools/setup.py .venv``.
 
 Debian's Python comes without ensurepip, so pip is started from the wheel beside this file.
 """

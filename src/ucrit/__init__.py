@@ -12,8 +12,8 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.convert import to_scipy as to_scipy
     from .analyses.criteria import criteria as criteria
     from .analyses.critical import critical as critical
-    from .analyses.listing import listing as list
-    from .analyses.listing import template as new
+    from .analyses.listing import listing as list  # noqa: F401
+    from .analyses.listing import template as new  # noqa: F401
     from .analyses.locus import locus as locus
     from .analyses.modes import modes as modes
     from .analyses.remedies import remedies as remedies
@@ -24,7 +24,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.verdict import verdict as verdict
     from .catalogue import find_model as find_model
     from .catalogue import load as load
-    from .checks import check_model as check
+    from .checks import check_model as check  # noqa: F401
     from .checks import check_model as check_model
     from .core import Model as Model
     from .core import ModelError as ModelError

@@ -41,7 +41,7 @@ def test_the_boundary_is_where_an_eigenvalue_is_on_the_axis(name):
         vehicle = load(name).with_(**{found.parameter: found.value})
         zeros = compiled(type(vehicle), direction(vehicle)).structural_zeros
         # rigid positions make a Jordan block, near which eigenvalues lose half their digits: the polynomial does not
-        values = np.roots([float(a) for a in coefficients(vehicle)][:zeros:-1] + [float(coefficients(vehicle)[zeros])])
+        values = np.roots([float(a) for a in coefficients(vehicle)[zeros:]][::-1])
         nearest = min(values, key=lambda v: abs(v.real))
         if not zeros:
             nearest = min(modes(vehicle).eigenvalues, key=lambda v: abs(v.real))

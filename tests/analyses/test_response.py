@@ -113,7 +113,7 @@ def test_gain_phase_and_peak():
 @pytest.mark.parametrize(
     ("call", "message"),
     [
-        (lambda car: step_response(car, "delta"), "car: there is no input 'delta'; did you mean 'delta_f'?"),
+        (lambda car: step_response(car, "delta_ff"), "car: there is no input 'delta_ff'; did you mean 'delta_f'?"),
         (lambda car: step_response(car, "delta_f", "rr"), "car: there is no output 'rr'; did you mean 'r'?"),
         (lambda car: step_response(car, "delta_f", times=[-1]), "times must be a list of finite numbers"),
         (lambda car: step_response(car, "delta_f", times="now"), "times must be a list of numbers, got 'now'"),

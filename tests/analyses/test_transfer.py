@@ -27,7 +27,7 @@ def pairs():
                 yield name, input, output
 
 
-@pytest.mark.parametrize(("name", "input", "output"), pairs())
+@pytest.mark.parametrize(("name", "input", "output"), [*pairs()])
 def test_against_python_control(name, input, output):
     vehicle = load(name)
     system = to_control(vehicle)
@@ -131,7 +131,7 @@ def test_texts():
 @pytest.mark.parametrize(
     ("arguments", "options", "message"),
     [
-        (("delta", "r"), {}, "car: there is no input 'delta'; did you mean 'delta_f'?"),
+        (("delta_ff", "r"), {}, "car: there is no input 'delta_ff'; did you mean 'delta_f'?"),
         (("delta_f", "rr"), {}, "car: there is no output 'rr'; did you mean 'r'?"),
         (("delta_f", "r"), {"where": {"Cr": 1}}, "car: there is no parameter 'Cr'; did you mean 'C_r'?"),
         (("delta_f", "r"), {"where": {"C_r": "a*X"}}, "car: C_r: the formula 'a*X' uses 'X'"),

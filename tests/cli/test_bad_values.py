@@ -53,13 +53,9 @@ def test_bad_value_set_on_the_command_line(
     name: str, key: str, run: Run, tmp_path: Path, vehicle_file: Callable[[str], Path]
 ) -> None:
     parameter = find_model(name).declaration.parameters[key]
-    texts = [
-        f"{v:g}" if isinstance(v, float) else v for v in bad_values(parameter) if isinstance(v, float | str)
-    ]
+    texts = [f"{v:g}" if isinstance(v, float) else v for v in bad_values(parameter) if isinstance(v, float | str)]
     for text in texts:
-        result = run(
-            "analyze", vehicle_file(name), "--set", f"{key}={text}", "--report", tmp_path / "out.html"
-        )
+        result = run("analyze", vehicle_file(name), "--set", f"{key}={text}", "--report", tmp_path / "out.html")
         refused(result, tmp_path, key, (text or f"'{key}='").split()[-1])
 
 
@@ -73,9 +69,7 @@ def test_missing_and_misspelt_parameters(name: str, key: str, run: Run, tmp_path
         path = write(tmp_path / "bad.toml", name, {k: v for k, v in values.items() if k != key})
         refused(run("analyze", path), tmp_path, f"{parameter.meaning} {key} is missing", parameter.allowed)
     path = write(tmp_path / "bad.toml", name, {**values, misspelt: 1.0})
-    refused(
-        run("analyze", path), tmp_path, f"no parameter '{misspelt}'", "did you mean" if len(key) > 1 else ""
-    )
+    refused(run("analyze", path), tmp_path, f"no parameter '{misspelt}'", "did you mean" if len(key) > 1 else "")
     good = write(tmp_path / "good.toml", name, values)
     refused(run("analyze", good, "--set", f"{misspelt}=1"), tmp_path, f"no parameter '{misspelt}'")
 

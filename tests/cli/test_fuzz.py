@@ -26,9 +26,7 @@ TOML_VALUES = st.recursive(
         st.floats().map(repr),
         st.booleans().map(lambda b: str(b).lower()),
         st.text(string.printable, max_size=12).map(lambda t: "'" + t + "'"),
-        st.sampled_from(
-            ['"3 kg"', '"9 9**9**9"', '"1e999 kg"', '"\\u001b[31m"', "1979-05-27", "07:32:00", "0x1F"]
-        ),
+        st.sampled_from(['"3 kg"', '"9 9**9**9"', '"1e999 kg"', '"\\u001b[31m"', "1979-05-27", "07:32:00", "0x1F"]),
     ),
     lambda inner: st.one_of(
         st.lists(inner, max_size=3).map(lambda v: "[" + ", ".join(v) + "]"),

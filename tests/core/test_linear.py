@@ -12,7 +12,8 @@ from hypothesis import strategies as st
 from ucrit.catalogue import find_model, load, model_names
 from ucrit.core.compiled import coefficients, compiled, state_space
 from ucrit.core.errors import ModelError, UcritError
-from ucrit.core.linear import LinearSystem, characteristic_polynomial, explicit
+from ucrit.core.explicit import explicit
+from ucrit.core.linear import LinearSystem, characteristic_polynomial
 
 
 def system_of(matrices):

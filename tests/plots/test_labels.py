@@ -29,7 +29,12 @@ def test_symbols(name, expected):
 
 @pytest.mark.parametrize(
     ("name", "expected"),
-    [("I_c", "$I_{c}$"), ("theta'", r"$\dot{θ}$"), ("x''", r"$\ddot{x}$"), ("trail_max", r"$\mathrm{trail}_{\mathrm{max}}$")],
+    [
+        ("I_c", "$I_{c}$"),
+        ("theta'", r"$\dot{θ}$"),
+        ("x''", r"$\ddot{x}$"),
+        ("trail_max", r"$\mathrm{trail}_{\mathrm{max}}$"),
+    ],
 )
 def test_mathtext(name, expected):
     assert math_symbol(name) == expected
@@ -58,7 +63,9 @@ def test_numbers(value, expected):
     assert number(value) == expected
 
 
-@pytest.mark.parametrize(("value", "expected"), [(-2.4, MINUS + "2.400"), (1234.0, "1234"), (0.0, "0"), (0.5, "0.5000")])
+@pytest.mark.parametrize(
+    ("value", "expected"), [(-2.4, MINUS + "2.400"), (1234.0, "1234"), (0.0, "0"), (0.5, "0.5000")]
+)
 def test_columns_keep_zeros(value, expected):
     assert fixed(value) == expected
 

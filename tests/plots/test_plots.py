@@ -210,7 +210,10 @@ class TestRemedies:
             assert bar.get_width() == pytest.approx(math.copysign(min(abs(r.relative), limit), r.relative))
 
     def test_numbers_stand_beside_the_bars(self, found):
-        assert texts(plots.plot_remedies(found))[:2] == ["+2.8\N{NO-BREAK SPACE}%", "\N{MINUS SIGN}5.4\N{NO-BREAK SPACE}%"]
+        assert texts(plots.plot_remedies(found))[:2] == [
+            "+2.8\N{NO-BREAK SPACE}%",
+            "\N{MINUS SIGN}5.4\N{NO-BREAK SPACE}%",
+        ]
 
     def test_a_present_value_of_zero_has_no_percentage(self, found):
         zero = replace(found[0], present=0.0, value=3.0, relative=math.inf)
@@ -276,9 +279,11 @@ class TestDispatch:
     def test_draws_into_a_given_figure(self, caravan):
         figure = style.new_figure(9, 4)
         assert plot(analyze(caravan), figure=figure) is figure
+
+    def test_a_figure_in_use_is_refused_for_two_drawings(self, caravan):
+        used = style.new_figure()
+        used.subplots()
         with pytest.raises(UcritError, match="empty figure"):
-            used = style.new_figure()
-            used.subplots()
             plot(analyze(caravan), figure=used)
 
 
@@ -291,7 +296,10 @@ class TestHousekeeping:
         assert axes.xaxis.label.get_fontsize() == 9
 
     def test_importing_draws_nothing_and_loads_no_library(self):
-        code = "import sys, ucrit.plots, ucrit.report; print([m for m in ('matplotlib', 'jinja2', 'sympy') if m in sys.modules])"
+        code = (
+            "import sys, ucrit.plots, ucrit.report; "
+            "print([m for m in ('matplotlib', 'jinja2', 'sympy') if m in sys.modules])"
+        )
         run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
         assert run.stdout.strip() == "[]"
 

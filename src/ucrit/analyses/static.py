@@ -136,9 +136,10 @@ def _derive(cls: type[Model], direction: int, name: str, turning: str) -> str:
     from sympy.polys.matrices import DomainMatrix
     from sympy.polys.rings import PolyRing
 
-    from ..core import linear, typeset
+    from ..core import typeset
     from ..core.derive import symbolic
     from ..core.factor import readable_ratio
+    from ..core.rings import integer_fraction, polynomial_field
     from .steady import sign_inside
 
     system = symbolic(cls, direction)
@@ -146,10 +147,10 @@ def _derive(cls: type[Model], direction: int, name: str, turning: str) -> str:
     variables = [chain[0].name for chain in system.traced.q]
     below = [v + "'" * k for v, order in zip(variables, e.orders, strict=True) for k in range(order)]
     n, column = e.L.rows, e.R[:, below.index(name)]
-    domain, elements, functions = linear._domain([*e.L, *column], system.bounds)
+    domain, elements, functions = polynomial_field([*e.L, *column], system.bounds)
     L = DomainMatrix([elements[i * n : (i + 1) * n] for i in range(n)], (n, n), domain)
     rhs = DomainMatrix([[c] for c in elements[n * n :]], (n, 1), domain)
     found = L.lu_solve(rhs).to_list()[variables.index(turning)][0]
     ring = PolyRing((*domain.symbols, Dummy("s")), ZZ, "lex")
-    top, bottom = linear._fraction(found, domain, ring)
+    top, bottom = integer_fraction(found, domain, ring)
     return typeset.text(sign_inside(readable_ratio(top, bottom).xreplace(functions)))

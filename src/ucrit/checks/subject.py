@@ -12,10 +12,10 @@ from typing import Any
 import numpy as np
 
 from ..catalogue import PUBLISHED
-from ..core.compiled import Motion, motion
 from ..core.derive import symbolic
 from ..core.linear import LinearSystem
 from ..core.model import STATEMENTS, Model, Names
+from ..core.motion import Motion, motion
 from ..core.trace import Traced, trace
 from .published import Entry, read_published
 from .report import NotApplicableError

@@ -53,18 +53,18 @@ def cramer(system: LinearSystem, input: str, output: str) -> Rational:
     from sympy.polys.matrices import DomainMatrix
     from sympy.polys.rings import PolyRing
 
-    from . import linear
+    from .rings import cleared_row, polynomial_field
 
     entries = _bordered(system, input, output)
     flat = [e for row in entries for chain in row for e in chain]
-    domain, elements, functions = linear._domain([*flat, S.One], system.bounds)
+    domain, elements, functions = polynomial_field([*flat, S.One], system.bounds)
     symbols = domain.symbols if domain.is_Composite else ()
     ring = PolyRing((*symbols, Dummy("s")), ZZ, "lex")
     source, one, n = iter(elements), elements[-1], len(entries) - 1
     rows = []
     for row in entries:
         chains = [[next(source) for _ in chain] for chain in row]
-        rows.append(linear._cleared_row([*chains, [one]], domain, ring, ring.gens[-1]))
+        rows.append(cleared_row([*chains, [one]], domain, ring, ring.gens[-1]))
     scale = rows[-1][-1]
     square = [row[:-1] for row in rows]
     above = DomainMatrix(square, (n + 1, n + 1), ring.to_domain()).det()

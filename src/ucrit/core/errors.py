@@ -28,8 +28,8 @@ def near_match(name: str, allowed: Iterable[str]) -> str:
     from difflib import get_close_matches
 
     choices = list(allowed)
-    lower = {choice.lower(): choice for choice in choices}
-    match = get_close_matches(name.lower(), lower, n=1, cutoff=0.5)
+    match = get_close_matches(name.lower(), [choice.lower() for choice in choices], n=1, cutoff=0.5)
     if match:
-        return f"; did you mean '{lower[match[0]]}'?"
+        same = [choice for choice in choices if choice.lower() == match[0]]  # C and c may both be allowed
+        return f"; did you mean '{max(same, key=lambda choice: sum(c in name for c in choice))}'?"
     return f"; allowed: {', '.join(choices) if choices else 'none'}"

@@ -19,7 +19,9 @@ OPERATORS = {
     ast.Pow: operator.pow,
 }
 SIGNS = {ast.USub: operator.neg, ast.UAdd: operator.pos}
-FUNCTIONS: dict[str, Any] = {name: getattr(sp, name) for name in ("sin", "cos", "tan", "asin", "atan", "atan2", "sqrt", "exp", "log")}
+FUNCTIONS: dict[str, Any] = {
+    name: getattr(sp, name) for name in ("sin", "cos", "tan", "asin", "atan", "atan2", "sqrt", "exp", "log")
+}
 FUNCTIONS |= {"tanh": sp.tanh, "sign": sp.sign, "abs": sp.Abs}
 
 

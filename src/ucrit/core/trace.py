@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import sympy as sp
@@ -50,9 +51,7 @@ class Traced:
 
     def time_derivative(self, expression: Expr) -> Expr:
         """Differentiate along the motion by the chain rule; the highest derivatives must not occur."""
-        terms = (
-            sp.diff(expression, low) * high for chain in self.q for low, high in zip(chain, chain[1:], strict=False)
-        )
+        terms = (sp.diff(expression, low) * high for chain in self.q for low, high in pairwise(chain))
         return sp.Add(*terms)
 
 

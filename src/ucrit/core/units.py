@@ -74,7 +74,7 @@ COMMON = {
     "N/mm": ("N/m", "1000"),
     "kN/rad": ("N/rad", "1000"),
 }
-"""Units met in most vehicle files: the coherent unit and the factor. Starting pint takes longer than most analyses."""
+"""Units met in most vehicle files: coherent unit and factor. Starting pint takes longer than most analyses."""
 
 _TOWER = re.compile(r"\d\s*(\^|\*\*)|(\^|\*\*)[\s(+-]*\d{3}")
 """Powers of numbers and powers above 99: no unit has them, and computing ``9**9**9`` would take for ever."""

@@ -83,8 +83,6 @@ class Labels:
         """Count line points under the box; other labels and the edge weigh more."""
         low, high = box
         under = np.count_nonzero(((self._points > low - 1) & (self._points < high + 1)).all(axis=1))
-        overlaps = sum(
-            bool(np.all(low < other[1] + 3) and np.all(other[0] - 3 < high)) for other in self._boxes
-        )
+        overlaps = sum(bool(np.all(low < other[1] + 3) and np.all(other[0] - 3 < high)) for other in self._boxes)
         outside = bool(np.any(low < 0) or np.any(high > self._size))
         return float(under + 200 * overlaps + 400 * outside)

@@ -37,9 +37,7 @@ def plot_remedies(remedies: Sequence[Remedy], *, figure: Any = None) -> Any:
     """
     helpful = [r for r in remedies if r.value is not None]
     if not helpful:
-        raise UcritError(
-            "there is no remedy to draw: the vehicle is stable, or no parameter alone makes it so"
-        )
+        raise UcritError("there is no remedy to draw: the vehicle is stable, or no parameter alone makes it so")
     with style.settings():
         fig = figure or style.new_figure(height=0.75 + 0.34 * len(helpful))
         axes = fig.subplots()
@@ -77,9 +75,7 @@ def _bar(axes: Any, row: int, remedy: Remedy, limit: float) -> None:
     if abs(remedy.relative) > limit:
         axes.plot([length], [row], marker=">" if rising else "<", color=colour, markersize=11, clip_on=False)
     finite = math.isfinite(remedy.relative)
-    text = (
-        labels.percent(remedy.relative) if finite else f"0 to {labels.quantity(remedy.value, remedy.unit, 3)}"
-    )
+    text = labels.percent(remedy.relative) if finite else f"0 to {labels.quantity(remedy.value, remedy.unit, 3)}"
     gap = 7 if abs(remedy.relative) <= limit else 12
     axes.annotate(
         text,

@@ -156,24 +156,16 @@ def _obstacles(branches: Sequence[Branch], box: tuple[float, float, float]) -> A
         spread = np.abs(np.diff(values.real)) / (right - left) + np.abs(np.diff(values.imag)) / top
         length = np.concatenate([[0.0], np.cumsum(spread)])
         fine = np.linspace(0, length[-1], 1 + int(min(100 * length[-1], 2000)))
-        found.append(
-            np.column_stack([np.interp(fine, length, values.real), np.interp(fine, length, values.imag)])
-        )
+        found.append(np.column_stack([np.interp(fine, length, values.real), np.interp(fine, length, values.imag)]))
     return np.concatenate(found)
 
 
-def _dots(
-    axes: Any, branches: Sequence[Branch], where: Array, box: tuple[float, float, float], room: Labels
-) -> None:
+def _dots(axes: Any, branches: Sequence[Branch], where: Array, box: tuple[float, float, float], room: Labels) -> None:
     """Mark round values of the parameter on all branches, and number them where there is room."""
     from matplotlib.ticker import MaxNLocator
 
     left, right, top = box
-    ticks = [
-        t
-        for t in MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(where[0], where[-1])
-        if _within(where, t) and t
-    ]
+    ticks = [t for t in MaxNLocator(6, steps=[1, 2, 5, 10]).tick_values(where[0], where[-1]) if _within(where, t) and t]
     for branch in branches:
         for tick in ticks:
             p = at(branch, where, tick)
@@ -233,9 +225,7 @@ def _legend(fig: Any, axes: Any, branches: Sequence[Branch], design: str, dots: 
                 label="critical",
             )
         )
-    entries.append(
-        Line2D([], [], color=style.MUTED, marker="o", markersize=3.6, linestyle="none", label=dots)
-    )
+    entries.append(Line2D([], [], color=style.MUTED, marker="o", markersize=3.6, linestyle="none", label=dots))
     legend = fig.legend(
         handles=entries,
         loc="outside lower center",

@@ -56,9 +56,7 @@ def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any 
         shades = [style.UNSTABLE, style.STABLE]
         axes.contourf(x, y, stable.astype(float), levels=[-0.5, 0.5, 1.5], colors=shades, zorder=0)
         if stable.any() and not stable.all():
-            axes.contour(
-                x, y, stable.astype(float), levels=[0.5], colors=[style.INK], linewidths=1.4, zorder=3
-            )
+            axes.contour(x, y, stable.astype(float), levels=[0.5], colors=[style.INK], linewidths=1.4, zorder=3)
         for flags, word in ((stable, "stable"), (~stable, "unstable")):
             _name(axes, flags, (x, y), word, point)
         if point is not None:

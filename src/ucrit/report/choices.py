@@ -44,9 +44,7 @@ def _checked(vehicle: Model, asked: Sequence[str]) -> tuple[str, str]:
         raise UcritError(f"a map needs two different parameters, got {asked!r}")
     for name in asked:
         if name not in known:
-            raise UcritError(
-                f"{type(vehicle).model_id()}: there is no parameter '{name}'{near_match(name, known)}"
-            )
+            raise UcritError(f"{type(vehicle).model_id()}: there is no parameter '{name}'{near_match(name, known)}")
     return asked[0], asked[1]
 
 

@@ -38,8 +38,7 @@ def steps(described: ModelDescription) -> list[Step]:
 def _named(quantities: Sequence[Quantity]) -> Markup:
     """List quantities as symbol, meaning and unit."""
     entries = [
-        Markup("{}, {} [{}]").format(formulas.symbol(q.name), q.meaning, unit_text(q.unit) or "1")
-        for q in quantities
+        Markup("{}, {} [{}]").format(formulas.symbol(q.name), q.meaning, unit_text(q.unit) or "1") for q in quantities
     ]
     return Markup("; ").join(entries)
 
@@ -51,11 +50,7 @@ def _printed(parts: Sequence[Formula], left: Sequence[str] | None = None) -> tup
         if not formulas.too_long(part.text):
             shown.append(formulas.formula(part.mathml, "= 0", "" if left is None else left[i]))
     missing = len(parts) - len(shown)
-    note = (
-        f"{missing} of {len(parts)} formulas are too long to print; ucrit.show returns them."
-        if missing
-        else ""
-    )
+    note = f"{missing} of {len(parts)} formulas are too long to print; ucrit.show returns them." if missing else ""
     return tuple(shown), note
 
 
@@ -75,9 +70,7 @@ def _motion(described: ModelDescription) -> Step:
 def _linear(described: ModelDescription) -> Step:
     unknowns = [[formulas.symbol_mathml(name)] for name in described.unknowns]
     shown = [
-        formulas.equality(
-            _sum(len(described.P)), "<mi>Q</mi><mi>u</mi>" if described.inputs else "<mn>0</mn>"
-        ),
+        formulas.equality(_sum(len(described.P)), "<mi>Q</mi><mi>u</mi>" if described.inputs else "<mn>0</mn>"),
         formulas.equality("<mi>q</mi>", formulas.matrix(unknowns)),
     ]
     missing = 0
@@ -105,9 +98,7 @@ def _inputs(described: ModelDescription) -> Step:
     long = _too_long(described.Q)
     shown = () if long else (formulas.equality("<mi>Q</mi>", _cells(described.Q)),)
     note = "The matrix is too long to print; ucrit.show returns it." if long else ""
-    text = Markup("The inputs, {}, act through Q. They do not touch stability.").format(
-        _named(described.inputs)
-    )
+    text = Markup("The inputs, {}, act through Q. They do not touch stability.").format(_named(described.inputs))
     return Step(text, "Input matrix", shown, note)
 
 
@@ -134,18 +125,14 @@ def _polynomial(described: ModelDescription) -> Step:
 def _conditions(described: ModelDescription) -> Step:
     found = described.criteria
     if found is None:
-        return Step(
-            "The conditions on these coefficients in symbols are too long to be of use.", "Conditions", ()
-        )
+        return Step("The conditions on these coefficients in symbols are too long to be of use.", "Conditions", ())
     text = (
         "All its roots lie in the left half plane if and only if the coefficients and every second Hurwitz "
         "determinant are positive. Each is factored; factors that are positive for all allowed parameters "
         "are dropped"
     )
     if found.zeros:
-        text += (
-            f"; {_count(found.zeros)} zero whatever the parameters, a free position, and divided out first"
-        )
+        text += f"; {_count(found.zeros)} zero whatever the parameters, a free position, and divided out first"
     if found.settled is not None:
         return Step(f"{text}. Nothing is left that depends on the parameters.", "Conditions", ())
     return Step(f"{text}. What is left stands above under Criteria.", "Conditions", ())

@@ -66,9 +66,7 @@ def of_locus(path: Locus, found: CriticalValues) -> list[Drawing]:
                 "locus",
                 f"Root locus along {path.parameter} {ends}.{crossing}",
             ),
-            Markup("Paths of the eigenvalues as {} goes {}; what lies in the shaded half grows.").format(
-                symbol, ends
-            ),
+            Markup("Paths of the eigenvalues as {} goes {}; what lies in the shaded half grows.").format(symbol, ends),
         ),
         Drawing(
             svg(
@@ -92,9 +90,7 @@ def of_map(analysis: Analysis, asked: Sequence[str] | None, path: Locus | None) 
     ranges = {name: choices.map_range(analysis, name, MAP_POINTS, path) for name in names}
     result = stability_map(analysis.vehicle, **ranges)
     across, up = names
-    description = (
-        f"Map of stability over {across} and {up}: stable on {percent(result.share).lstrip('+')} of it."
-    )
+    description = f"Map of stability over {across} and {up}: stable on {percent(result.share).lstrip('+')} of it."
     return Drawing(
         svg(plot_map(result, vehicle=analysis.vehicle), "map", description),
         Markup("Stability over {} and {}, all other parameters as they are.{}{}").format(
@@ -140,8 +136,7 @@ def of_modes(analysis: Analysis) -> list[Drawing]:
 
     names = ", ".join(mode.name for mode in analysis.modes)
     shares = "; ".join(
-        f"{mode.name}: "
-        + ", ".join(f"{state} {100 * share:.0f} %" for state, share in mode.participation.items())
+        f"{mode.name}: " + ", ".join(f"{state} {100 * share:.0f} %" for state, share in mode.participation.items())
         for mode in analysis.modes
     )
     return [
@@ -155,9 +150,7 @@ def of_modes(analysis: Analysis) -> list[Drawing]:
             "counter-clockwise ahead. Lengths compare variables of one unit; the largest counts as 1.",
         ),
         Drawing(
-            svg(
-                plot_participation(analysis.modes), "participation", f"Participation of the states. {shares}."
-            ),
+            svg(plot_participation(analysis.modes), "participation", f"Participation of the states. {shares}."),
             "Share of each state in each mode [%]; a row adds up to 100.",
         ),
     ]

@@ -53,7 +53,8 @@ def svg(figure: Any, prefix: str, description: str) -> Markup:
     text = _HEAD.sub("", text, count=1)
     for useless in (_METADATA, _STYLE, _COMMENT):
         text = useless.sub("", text)
-    text = re.sub(r'\bid="([^"]+)"', rf'id="{prefix}-\1"', text)
+    used = set(re.findall(r'(?:url\(#|xlink:href="#)([^")]+)', text))
+    text = re.sub(r' id="([^"]+)"', lambda m: f' id="{prefix}-{m[1]}"' if m[1] in used else "", text)
     text = re.sub(r"url\(#([^)]+)\)", rf"url(#{prefix}-\1)", text)
     text = re.sub(r'xlink:href="#([^"]+)"', rf'href="#{prefix}-\1"', text)
     text = _PATH.sub(lambda path: _DIGITS.sub(r"\1", path[0]), text)

@@ -119,9 +119,7 @@ def symbol_mathml(name: str) -> str:
 
 def matrix(cells: Sequence[Sequence[str]]) -> str:
     """Return the MathML of a matrix; the style sheet draws its brackets, which not every font can stretch."""
-    rows = "".join(
-        "<mtr>" + "".join(f"<mtd><mrow>{cell}</mrow></mtd>" for cell in row) + "</mtr>" for row in cells
-    )
+    rows = "".join("<mtr>" + "".join(f"<mtd><mrow>{cell}</mrow></mtd>" for cell in row) + "</mtr>" for row in cells)
     return f'<mtable class="matrix" displaystyle="true">{rows}</mtable>'
 
 

@@ -55,9 +55,7 @@ def write_report(
     write_whole(path, render(analysis, map_parameters=map_parameters, command=command).encode())
 
 
-def render(
-    analysis: Analysis, *, map_parameters: Sequence[str] | None = None, command: str | None = None
-) -> str:
+def render(analysis: Analysis, *, map_parameters: Sequence[str] | None = None, command: str | None = None) -> str:
     """Return the page as text; see `write_report`."""
     from jinja2 import Environment, FileSystemLoader, StrictUndefined
     from markupsafe import Markup

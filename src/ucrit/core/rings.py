@@ -1,0 +1,82 @@
+"""Fields and rings of polynomials in the parameters, in which all symbolic arithmetic is done.
+
+Functions of parameters inside polynomials, such as ``cos(beta)``, become symbols whose sign the bounds settle.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from typing import Any
+
+import sympy as sp
+from sympy.polys.constructor import construct_domain
+from sympy.polys.rings import PolyElement, PolyRing
+
+from .declare import Parameter
+
+Swap = dict[Any, Any]
+Row = list[list[Any]]  # row[j][k]: coefficient of the k-th derivative of variable j
+
+
+def function_symbols(expressions: Iterable[Any], parameters: Mapping[Any, Parameter]) -> tuple[Swap, Swap]:
+    """Return what replaces each function of parameters by a symbol, and what puts it back.
+
+    Symbols are named as the function prints. Sines and cosines of one argument stay related only through
+    what simplification did before; a relation between them is not known to the polynomials.
+    """
+    found: set[Any] = set()
+    for expression in expressions:
+        found |= {f for f in sp.sympify(expression).atoms(sp.Function) if f.free_symbols}
+    outer = [f for f in found if not any(f in g.atoms(sp.Function) and f != g for g in found)]
+    swap = {f: sp.Symbol(str(f), **_assumption(f, parameters)) for f in sorted(outer, key=str)}
+    return swap, {symbol: f for f, symbol in swap.items()}
+
+
+def _assumption(function: Any, parameters: Mapping[Any, Parameter]) -> dict[str, bool]:
+    """Assumptions for a sine, cosine, tangent or exponential of one parameter, from the parameter's bounds."""
+    if isinstance(function, sp.exp):
+        return {"positive": True}
+    parameter = parameters.get(function.args[0])
+    if parameter is None:
+        return {"real": True}
+    lo, hi, half = parameter.lower, parameter.upper, math.pi / 2
+    inside = {sp.cos: (-half, half), sp.sin: (0.0, math.pi), sp.tan: (0.0, half)}.get(function.func)
+    if inside is None or not (inside[0] <= lo and hi <= inside[1]):
+        return {"real": True}
+    closed = (lo == inside[0] and parameter.above != lo) or (hi == inside[1] and parameter.below != hi)
+    return {"nonnegative": True} if closed else {"positive": True}
+
+
+def polynomial_field(expressions: Sequence[Any], bounds: Mapping[Any, Any]) -> tuple[Any, list[Any], dict[Any, Any]]:
+    """Return a field of rational functions in the parameters, the expressions in it, and what its symbols stand for."""
+    simple = [sp.trigsimp(e) if e.has(sp.sin, sp.cos, sp.tan) else e for e in map(sp.sympify, expressions)]
+    swap, back = function_symbols(simple, bounds)
+    domain, elements = construct_domain([e.xreplace(swap) for e in simple], field=True)
+    return domain, elements, back
+
+
+def cleared_row(entries: Row, domain: Any, ring: PolyRing, s: PolyElement) -> list[PolyElement]:
+    """Multiply a row by its common denominator and write it in the ring of parameters and ``s``."""
+    pairs = [[integer_fraction(e, domain, ring) for e in chain] for chain in entries]
+    common = ring.one
+    for chain in pairs:
+        for numerator, denominator in chain:
+            if numerator:
+                common = common.lcm(denominator)
+    return [
+        sum((num * common.exquo(den) * s**k for k, (num, den) in enumerate(chain) if num), ring.zero) for chain in pairs
+    ]
+
+
+def integer_fraction(element: Any, domain: Any, ring: PolyRing) -> tuple[PolyElement, PolyElement]:
+    """Return numerator and denominator of a field element in a ring with one symbol more and integer coefficients."""
+    if not domain.is_Composite:
+        return ring(int(element.numerator)), ring(int(element.denominator))
+    num, content_n = element.numer.clear_denoms()[::-1]
+    den, content_d = element.denom.clear_denoms()[::-1]
+    return _lift(num, ring) * int(content_d), _lift(den, ring) * int(content_n)
+
+
+def _lift(poly: PolyElement, ring: PolyRing) -> PolyElement:
+    return ring.from_dict({(*monom, 0): int(c) for monom, c in poly.terms()})
