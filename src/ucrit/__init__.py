@@ -8,19 +8,28 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.analyze import analyze as analyze
+    from .analyses.compare import compare as compare
     from .analyses.convert import to_control as to_control
     from .analyses.convert import to_scipy as to_scipy
     from .analyses.criteria import criteria as criteria
     from .analyses.critical import critical as critical
+    from .analyses.limits import limit as limit
     from .analyses.listing import listing as list  # noqa: F401
     from .analyses.listing import template as new  # noqa: F401
     from .analyses.locus import locus as locus
     from .analyses.modes import modes as modes
     from .analyses.remedies import remedies as remedies
+    from .analyses.response import frequency_response as frequency_response
+    from .analyses.response import impulse_response as impulse_response
+    from .analyses.response import step_response as step_response
     from .analyses.sensitivity import sensitivity as sensitivity
     from .analyses.show import show as show
     from .analyses.stability_map import stability_map as stability_map
+    from .analyses.static import static_stability as static_stability
+    from .analyses.steady import axle_loads as axle_loads
+    from .analyses.steady import steady_turn as steady_turn
     from .analyses.sweep import sweep as sweep
+    from .analyses.transfer import transfer as transfer
     from .analyses.verdict import verdict as verdict
     from .catalogue import find_model as find_model
     from .catalogue import load as load
@@ -66,6 +75,15 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "to_control": "analyses.convert",
     "to_scipy": "analyses.convert",
     "verdict": "analyses.verdict",
+    "axle_loads": "analyses.steady",
+    "compare": "analyses.compare",
+    "frequency_response": "analyses.response",
+    "impulse_response": "analyses.response",
+    "step_response": "analyses.response",
+    "limit": "analyses.limits",
+    "static_stability": "analyses.static",
+    "steady_turn": "analyses.steady",
+    "transfer": "analyses.transfer",
     "show": "analyses.show",
     "list": ("analyses.listing", "listing"),
     "new": ("analyses.listing", "template"),

@@ -21,7 +21,8 @@ def test_weathercock_moment_of_random_cars(seed):
 
 
 def test_both_coordinate_systems_agree():
-    body, road = static_stability(load("oversteering-car")), static_stability(load("oversteering-car-on-the-road"), "psi")
+    body = static_stability(load("oversteering-car"))
+    road = static_stability(load("oversteering-car-on-the-road"), "psi")
     car = load("oversteering-car")
     assert road.slope == pytest.approx(-car.U * body.slope, rel=1e-12)
     assert (road.stable, road.dynamic) == (body.stable, body.dynamic) == (False, True)

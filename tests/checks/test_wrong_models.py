@@ -5,6 +5,7 @@ import pytest
 from ucrit.checks import check_model
 from ucrit.core import Model, coordinate, cos, input, output, param, sin, speed, state
 from ucrit.core import compiled as core_compiled
+from ucrit.core import motion as core_motion
 from ucrit.models.car import Car
 from ucrit.models.trailer import Trailer
 from ucrit.models.trailer_kinematic import TrailerKinematic
@@ -292,8 +293,8 @@ def test_compiled_matrices_that_differ(monkeypatch):
 
 @pytest.mark.parametrize("model", [Car, TrailerRigidTire])
 def test_linearisation_that_differs(monkeypatch, model):
-    original = core_compiled.Motion.rhs
-    monkeypatch.setattr(core_compiled.Motion, "rhs", lambda self, w, u, p: 1.001 * original(self, w, u, p))
+    original = core_motion.Motion.rhs
+    monkeypatch.setattr(core_motion.Motion, "rhs", lambda self, w, u, p: 1.001 * original(self, w, u, p))
     assert failing(model) == ["linearisation"]
 
 

@@ -18,9 +18,7 @@ from .suite import run
 __all__ = ["Check", "Report", "check_model"]
 
 
-def check_model(
-    model: type[Model] | Model, seed: int = 0, published: str | os.PathLike[str] | None = None
-) -> Report:
+def check_model(model: type[Model] | Model, seed: int = 0, published: str | os.PathLike[str] | None = None) -> Report:
     """Run every check that applies to a model and report what came out.
 
     Parameters

@@ -39,9 +39,7 @@ def energy(subject: Subject) -> str:
     forces = [*of("forces", ()), *zip(multipliers, of("constraints", ()), strict=False)]
     power = [-force * dq * sp.diff(sp.sympify(velocity), dq) for force, velocity in forces for dq in rates]
     if _imbalance(subject, [*_rate(h, traced), *power]):
-        raise FailedCheckError(
-            "energy is not balanced along the motion: its rate is not the power of the forces"
-        )
+        raise FailedCheckError("energy is not balanced along the motion: its rate is not the power of the forces")
     return "the rate of energy is the power of the forces along the motion"
 
 

@@ -25,18 +25,14 @@ def declarations(subject: Subject) -> str:
             raise FailedCheckError(f"{name} has no meaning")
     for name, parameter in declared.parameters.items():
         if parameter.default is not None and not parameter.allows(parameter.default):
-            raise FailedCheckError(
-                f"the default of {name} must be {parameter.allowed}, got {parameter.default:g}"
-            )
+            raise FailedCheckError(f"the default of {name} must be {parameter.allowed}, got {parameter.default:g}")
     return f"{len(quantities)} quantities with unit and meaning"
 
 
 def used(subject: Subject) -> str:
     """Every parameter, variable and input occurs in the equations or outputs."""
     traced = subject.traced
-    occurring = set().union(
-        *(e.free_symbols for e in (*traced.residuals, *traced.outputs, *traced.basic.values()))
-    )
+    occurring = set().union(*(e.free_symbols for e in (*traced.residuals, *traced.outputs, *traced.basic.values())))
     for name, symbol in {
         **traced.parameters,
         **dict(zip(subject.model.declaration.inputs, traced.u, strict=True)),
@@ -45,9 +41,7 @@ def used(subject: Subject) -> str:
             raise FailedCheckError(f"{name} is declared and never used")
     for chain in traced.q:
         if chain[-1] not in occurring:
-            raise FailedCheckError(
-                f"{chain[-1]}, the highest derivative declared, does not occur in the equations"
-            )
+            raise FailedCheckError(f"{chain[-1]}, the highest derivative declared, does not occur in the equations")
     return "every parameter, variable and input occurs in the equations"
 
 

@@ -24,9 +24,7 @@ from .subject import Subject
 def derivations(subject: Subject) -> str:
     """Each method ``equations_<how>`` gives the first derivation's linear equations and accelerations."""
     if not subject.derivations:
-        raise NotApplicableError(
-            "the model has one derivation only; a method 'equations_newton' would add another"
-        )
+        raise NotApplicableError("the model has one derivation only; a method 'equations_newton' would add another")
     for method in subject.derivations:
         for direction in subject.directions:
             _compare_linear(subject, method, direction)
@@ -78,9 +76,7 @@ def accelerations(traced: Traced, states: States) -> Array:
     """Return the highest derivatives that traced equations give, one a row."""
     solved = solve_for_highest(traced)
     n = len(traced.q)
-    entries = stacked(
-        _function(traced, [*solved.M, *solved.f])(states.w, states.u, states.parameters), states.w
-    )
+    entries = stacked(_function(traced, [*solved.M, *solved.f])(states.w, states.u, states.parameters), states.w)
     M = np.moveaxis(entries[: n * n].reshape(n, n, -1), -1, 0)
     z = np.linalg.solve(M, entries[n * n :].T[..., None])
     return np.asarray(z[..., 0].T, dtype=np.float64)

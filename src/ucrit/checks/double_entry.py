@@ -42,9 +42,7 @@ def matrices(subject: Subject) -> str:
             if key in entry.content
         }
         if given["P_0"].shape != system.P[0].shape:
-            raise FailedCheckError(
-                f"{entry.where}: P_0 is of shape {given['P_0'].shape}, derived {system.P[0].shape}"
-            )
+            raise FailedCheckError(f"{entry.where}: P_0 is of shape {given['P_0'].shape}, derived {system.P[0].shape}")
         P = [given.get(key, sp.zeros(*system.P[0].shape)) for key in ("P_0", "P_1", "P_2")]
         if not same_equations(system, P, given.get("Q"), subject.points(entry.where, entry.direction)):
             raise FailedCheckError(f"{entry.where}: the linear equations are others")
@@ -65,9 +63,7 @@ def state_matrix(subject: Subject) -> str:
             for point in subject.points(entry.where, entry.direction):
                 found = getattr(made.state_space(point), key)
                 if found.shape != M.shape:
-                    raise FailedCheckError(
-                        f"{entry.where}: {key} is of shape {M.shape}, derived {found.shape}"
-                    )
+                    raise FailedCheckError(f"{entry.where}: {key} is of shape {M.shape}, derived {found.shape}")
                 size = 1e-12 * abs(found).max(axis=1).repeat(M.cols)
                 for got, expected, least in zip(found.ravel(), function(point), size, strict=True):
                     if abs(got - float(expected)) > 1e-10 * abs(got) + least:
@@ -103,7 +99,5 @@ def transfer(subject: Subject) -> str:
                 nodes = frequencies(bottom, len(top) + len(bottom))
                 for s, value in zip(nodes, derived(point, nodes), strict=True):
                     if not close(value * value_at(bottom, s), value_at(top, s)):
-                        raise FailedCheckError(
-                            f"{entry.where}: {name_out}/{name_in} is another transfer function"
-                        )
+                        raise FailedCheckError(f"{entry.where}: {name_out}/{name_in} is another transfer function")
     return f"{len(entries)} published transfer functions agree"

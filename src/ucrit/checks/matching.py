@@ -14,9 +14,7 @@ from .precise import DIGITS, EQUAL, Point, frequencies, matrix
 TYPICAL = (10, 1)  # a polynomial whose root is of the size that vehicles' eigenvalues have, in 1/s
 
 
-def same_equations(
-    system: LinearSystem, P: Sequence[sp.Matrix], Q: sp.Matrix | None, points: Sequence[Point]
-) -> bool:
+def same_equations(system: LinearSystem, P: Sequence[sp.Matrix], Q: sp.Matrix | None, points: Sequence[Point]) -> bool:
     """Tell whether ``sum P_k q^(k) = Q u`` is a regular combination of the rows of a derived system.
 
     The combination T is found at one frequency s from ``T P(s) = P_derived(s)`` and must hold at others.
@@ -55,9 +53,7 @@ def _keys(M: Any) -> list[tuple[int, int]]:
     return [(i, j) for i in range(M.rows) for j in range(M.cols)]
 
 
-def response(
-    system: LinearSystem, name_in: str, name_out: str
-) -> Callable[[Point, Sequence[Any]], list[Any]]:
+def response(system: LinearSystem, name_in: str, name_out: str) -> Callable[[Point, Sequence[Any]], list[Any]]:
     """Return a function that evaluates a transfer function at given frequencies ``s``."""
     declared = system.traced.model.declaration
     column, n = list(declared.inputs).index(name_in), len(system.traced.q)

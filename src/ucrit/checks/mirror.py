@@ -37,9 +37,7 @@ def mirror(subject: Subject) -> str:
         if differs(left[None], right[None]):
             raise FailedCheckError(f"the rate of {label} differs between the two sides")
     if declared.outputs:
-        right_side = subject.motion.outputs(states.w, states.u, states.parameters) * signs(
-            list(declared.outputs)
-        )
+        right_side = subject.motion.outputs(states.w, states.u, states.parameters) * signs(list(declared.outputs))
         left_side = subject.motion.outputs(w, u, states.parameters)
         for name, left, right in zip(declared.outputs, left_side, right_side, strict=True):
             if differs(left[None], right[None]):

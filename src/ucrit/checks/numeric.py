@@ -75,13 +75,9 @@ def linearisation(subject: Subject) -> str:
                 raise FailedCheckError("finite differences of the non-linear motion do not give A")
         else:
             a = np.array(np.broadcast_arrays(*made.coefficients(sets), np.zeros(COUNT))[:-1])
-            found = (
-                "finite differences of the motion have the polynomial's roots and zeros for the constraints"
-            )
+            found = "finite differences of the motion have the polynomial's roots and zeros for the constraints"
             if not _same_polynomial(slopes, a, 1e-6):
-                raise FailedCheckError(
-                    "finite differences of the non-linear motion have other eigenvalues than A"
-                )
+                raise FailedCheckError("finite differences of the non-linear motion have other eigenvalues than A")
     return found
 
 

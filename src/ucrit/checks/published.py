@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import Any
 
 from ..core.errors import UcritError, near_match
+from ..core.expressions import parse
 from ..core.files import read_text
-from .expressions import parse
 
 #: Keys of every table: those it must have and those it may have.
 TABLES: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
@@ -78,9 +78,7 @@ def _entry(where: str, table: str, item: Mapping[str, Any]) -> Entry:
     required, optional = TABLES[table]
     for key in item:
         if key not in (*required, *optional, *COMMON):
-            raise UcritError(
-                f"{where}: there is no key '{key}'{near_match(key, (*required, *optional, *COMMON))}"
-            )
+            raise UcritError(f"{where}: there is no key '{key}'{near_match(key, (*required, *optional, *COMMON))}")
     for key in ("source", *required):
         if key not in item:
             raise UcritError(f"{where}: the key '{key}' is missing")

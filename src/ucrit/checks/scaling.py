@@ -58,9 +58,7 @@ def _motion(subject: Subject) -> None:
         for k in range(variable.order)
     ]
     w_scale = np.array([_scale(unit, factors) for unit in units])
-    u_scale = np.array([_scale(i.dimension, factors) for i in declared.inputs.values()]).reshape(
-        states.u.shape
-    )
+    u_scale = np.array([_scale(i.dimension, factors) for i in declared.inputs.values()]).reshape(states.u.shape)
     y_scale = np.array([_scale(o.dimension, factors) for o in declared.outputs.values()])
     parameters = _scaled(subject, states.parameters, factors)
     after, before = (

@@ -43,9 +43,7 @@ def criterion(subject: Subject) -> str:
                 raise FailedCheckError(f"{entry.where}: eigenvalues and criterion disagree")
             verdicts |= set(positive[clear].tolist())
         if len(verdicts) < 2:
-            raise FailedCheckError(
-                f"{entry.where}: {COUNT} random vehicles are all alike, which tests nothing"
-            )
+            raise FailedCheckError(f"{entry.where}: {COUNT} random vehicles are all alike, which tests nothing")
     return f"{len(entries)} published criteria agree with the eigenvalues of {COUNT} random vehicles"
 
 
@@ -69,9 +67,7 @@ def derived_criterion(subject: Subject) -> str:
     for direction in subject.directions:
         order = len(subject.system(direction).polynomial.coefficients) - 1
         if order > MAX_ORDER:
-            raise NotApplicableError(
-                f"criteria in all parameters are for order {MAX_ORDER} at most, not {order}"
-            )
+            raise NotApplicableError(f"criteria in all parameters are for order {MAX_ORDER} at most, not {order}")
         try:
             found = criteria(subject.model, direction=direction)
         except UcritError as refusal:

@@ -67,9 +67,7 @@ class Subject:
     @property
     def derivations(self) -> list[str]:
         """Names of the methods that derive the equations again."""
-        return sorted(
-            name for name in dir(self.model) if name.startswith("equations_") and self.is_current(name)
-        )
+        return sorted(name for name in dir(self.model) if name.startswith("equations_") and self.is_current(name))
 
     def is_current(self, method: str) -> bool:
         """Tell whether a method is no older in the line of classes than the statement of motion in use.
@@ -84,8 +82,7 @@ class Subject:
         """Symbols of variables, rates and inputs as a model's methods take them."""
         names = list(self.model.declaration.variables)
         values = [
-            {name: chain[k] for name, chain in zip(names, traced.q, strict=False) if k < len(chain)}
-            for k in range(3)
+            {name: chain[k] for name, chain in zip(names, traced.q, strict=False) if k < len(chain)} for k in range(3)
         ]
         groups = {group: Names(group, values[k]) for k, group in enumerate(("x", "dx", "ddx"))}
         inputs = dict(zip(self.model.declaration.inputs, traced.u, strict=True))

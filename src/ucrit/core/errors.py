@@ -22,6 +22,8 @@ def near_match(name: str, allowed: Iterable[str]) -> str:
 
     >>> near_match("C_ff", ["C_f", "C_r"])
     "; did you mean 'C_f'?"
+    >>> near_match("CC", ["C", "c"])
+    "; did you mean 'C'?"
     >>> near_match("zzz", ["C_f", "C_r"])
     '; allowed: C_f, C_r'
     """

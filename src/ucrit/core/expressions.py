@@ -18,7 +18,7 @@ OPERATORS = {
     ast.Div: operator.truediv,
     ast.Pow: operator.pow,
 }
-SIGNS = {ast.USub: operator.neg, ast.UAdd: operator.pos}
+SIGNS: dict[type[ast.unaryop], Any] = {ast.USub: operator.neg, ast.UAdd: operator.pos}
 FUNCTIONS: dict[str, Any] = {
     name: getattr(sp, name) for name in ("sin", "cos", "tan", "asin", "atan", "atan2", "sqrt", "exp", "log")
 }

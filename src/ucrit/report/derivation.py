@@ -38,7 +38,10 @@ def steps(described: ModelDescription) -> list[Step]:
 def _named(quantities: Sequence[Quantity]) -> Markup:
     """List quantities as symbol, meaning and unit."""
     entries = [
-        Markup("{}, {} [{}]").format(formulas.symbol(q.name), q.meaning, unit_text(q.unit) or "1") for q in quantities
+        Markup('<span class="whole">{},</span> {} [{}]').format(
+            formulas.symbol(q.name), q.meaning, unit_text(q.unit) or "1"
+        )
+        for q in quantities
     ]
     return Markup("; ").join(entries)
 

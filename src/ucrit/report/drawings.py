@@ -74,7 +74,7 @@ def of_locus(path: Locus, found: CriticalValues) -> list[Drawing]:
                 "damping",
                 f"Damping and frequency along {path.parameter} {ends}.{crossing}",
             ),
-            Markup("Damping and frequency of the modes against {}; stable ranges are shaded.").format(symbol),
+            Markup("The modes' damping and frequency; stable ranges of {} are shaded.").format(symbol),
         ),
     ]
 

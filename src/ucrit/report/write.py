@@ -138,8 +138,15 @@ def _drawings(analysis: Analysis, map_parameters: Sequence[str] | None) -> dict[
 
 
 def _command(analysis: Analysis) -> str:
-    """How to make the page again in Python, from the file the vehicle was read from."""
+    """How to make the page again in Python; the vehicle is named only where its file gives these very numbers."""
+    from ..catalogue import load
+    from ..core.errors import UcritError
+
     file = analysis.vehicle.info.file
-    subject = repr(file) if file else "vehicle"
+    try:
+        same = bool(file) and load(file, at_speed=analysis.speed) == analysis.vehicle
+    except UcritError:
+        same = False
     upto = "" if analysis.speed is None else f", upto={analysis.speed!r}"
-    return f"ucrit.write_report(ucrit.analyze({subject}{upto}), path)"
+    subject = f"{file!r}{upto}" if same else "vehicle"
+    return f'ucrit.write_report(ucrit.analyze({subject}), "report.html")'
