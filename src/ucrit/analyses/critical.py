@@ -59,7 +59,8 @@ class Critical:
 
     def __str__(self) -> str:
         at = f" at {self.frequency_hz:.4g} Hz" if self.frequency_hz else ""
-        return f"{self.parameter} = {self.value:.12g} {self.unit}: {self.kind} of the {self.mode}{at}, stable {self.stable}"
+        value = f"{self.parameter} = {self.value:.12g}{'' if self.unit == '1' else ' ' + self.unit}"
+        return f"{value}: {self.kind} of the {self.mode}{at}, stable {self.stable}"
 
 
 @dataclass(frozen=True)

@@ -240,8 +240,8 @@ def coefficients(vehicle: Model) -> tuple[Any, ...]:
 def deciding_coefficients(vehicle: Model) -> tuple[Any, ...]:
     """Return ascending coefficients of the polynomial whose roots decide stability.
 
-    Structural zeros, harmless, are divided out. Where no motion can decay, ``p + p'`` takes the place of the even ``p``:
-    its roots lie in the left half plane if and only if those of p are simple and on the imaginary axis
+    Structural zeros, harmless, are divided out. Where no motion can decay, ``p + p'`` takes the place of the even
+    ``p``: its roots lie in the left half plane if and only if those of p are simple and on the imaginary axis
     (F. R. Gantmacher, The Theory of Matrices (1959), volume 2, chapter XV, sections 7 and 16).
     """
     functions = compiled(type(vehicle), direction(vehicle))

@@ -130,7 +130,7 @@ def percent(share: float) -> str:
     """Return a relative change as a signed percentage.
 
     >>> percent(0.0275).split(), percent(1234.0).split()
-    (['+2.8', '%'], ['+1.2·10⁵', '%'])
+    (['+2.8', '%'], ['+120000', '%'])
     """
     value = 100 * share
     if not math.isfinite(value):
