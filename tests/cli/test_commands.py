@@ -242,3 +242,14 @@ def test_completion_scripts(shell: str, run: Run) -> None:
 
 def test_version(run: Run) -> None:
     assert run("--version").stdout == f"ucrit {ucrit.__version__}\n"
+
+
+def test_the_map_of_the_report_is_chosen(run: Run, tmp_path: Path) -> None:
+    page = tmp_path / "r.html"
+    assert run("analyze", "caravan", "--report", str(page), "--map", "a", "m").exit_code == 0
+    assert "Stability over" in page.read_text(encoding="utf-8")
+    refused = run("analyze", "caravan", "--report", str(tmp_path / "s.html"), "--map", "a", "mm")
+    assert refused.exit_code == 2
+    assert "did you mean 'm'?" in refused.stderr
+    assert not (tmp_path / "s.html").exists()
+    assert run("analyze", "caravan", "--map", "a", "m").exit_code == 2

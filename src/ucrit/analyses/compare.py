@@ -48,7 +48,7 @@ class Comparison:
         if len({type(s.vehicle) for s in subjects}) > 1:
             rows.append(("model", tuple(type(s.vehicle).model_id() for s in subjects)))
         rows.append(("speed [m/s]", tuple(_speed(s.vehicle) for s in subjects)))
-        rows.append(("verdict", tuple(s.verdict.state for s in subjects)))
+        rows.append(("verdict", tuple(s.verdict.state.removeprefix("asymptotically ") for s in subjects)))
         rows.append(("stable speeds [m/s]", tuple(_ranges(s.speeds) for s in subjects)))
         most = max((len(s.speeds) for s in subjects if s.speeds is not None), default=0)
         for i in range(most):
@@ -173,7 +173,7 @@ def _mode(mode: Mode | None) -> str:
     if mode is None:
         return "-"
     if mode.oscillates:
-        return f"{mode.frequency_hz:.3g} Hz, damping {mode.damping_ratio:.3g}"
+        return f"{mode.frequency_hz:.3g} Hz, damping {mode.damping_ratio + 0.0:.3g}"
     return f"{mode.eigenvalue.real:+.3g} 1/s"
 
 

@@ -164,6 +164,8 @@ def criteria(
     key = f"criteria{sense:+d}" + "".join(f"-{k}={v!r}" for k, v in values.items())
     piece = key if not values else f"criteria-{_short_hash(key)}"
     facts = cached(cls, piece, lambda: _derive(cls, sense, values))
+    if "refused" in facts:
+        raise UcritError(facts["refused"])
     conditions = tuple(
         Criterion(
             **{
@@ -195,4 +197,7 @@ def _derive(cls: type[Model], direction: int, values: Mapping[str, Any]) -> dict
         symbols = system.traced.parameters
         system = system.substituted({symbols[name]: sp.Rational(str(v)) for name, v in values.items()})
     parameters = [symbol for name, symbol in system.traced.parameters.items() if name not in values]
-    return conditions(system.polynomial, parameters, cls.model_id())
+    try:
+        return conditions(system.polynomial, parameters, cls.model_id())
+    except UcritError as error:  # kept like a result: finding out that it is too long takes long too
+        return {"refused": str(error)}

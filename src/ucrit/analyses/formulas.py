@@ -60,14 +60,16 @@ def _tidied(residual: Any, traced: Traced) -> Any:
     for angle in sorted(angles, key=str):
         flat = _expanded(flat.replace(sp.cos(angle) ** 2, 1 - sp.sin(angle) ** 2))
     fastest = [s for s in traced.highest if flat.has(s)]
-    return _shortest([residual, flat, sp.collect(flat, fastest), sp.collect(flat, fastest, sp.factor)])
+    laws = sorted((f for f in flat.atoms(sp.Function) if not isinstance(f, sp.sin | sp.cos)), key=str)
+    collected = [sp.collect(flat, keys, form) for keys in (fastest, [*fastest, *laws]) for form in (None, sp.factor)]
+    return _shortest([residual, flat, *collected])
 
 
 def _expanded(expression: Any) -> Any:
     """Multiply out, but not inside functions: slip angles stay as they were stated."""
-    while (wider := sp.expand_mul(sp.expand_power_base(expression, deep=False), deep=False)) != expression:
-        expression = wider
-    return expression
+    terms = [sp.expand_mul(sp.expand_power_base(t, deep=False), deep=False) for t in sp.Add.make_args(expression)]
+    wider = sp.Add(*terms)
+    return wider if wider == expression else _expanded(wider)
 
 
 def _motion(expression: Any, traced: Traced) -> dict[str, str]:

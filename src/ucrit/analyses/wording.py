@@ -10,6 +10,10 @@ if TYPE_CHECKING:
     from .critical import Critical
 
 
+FASTEST = 1000.0
+"""Speed [m/s] above which a change of stability is not worth a word: no vehicle on wheels gets there."""
+
+
 def speed_text(speed: float) -> str:
     """Return a speed in m/s and, for readers on the road, in km/h.
 
@@ -68,7 +72,7 @@ def _growth(analysis: Analysis) -> str:
 
 
 def _beyond(analysis: Analysis, top: float) -> str:
-    above = [c for c in analysis.critical or () if abs(c.value) > top]
+    above = [c for c in analysis.critical or () if top < abs(c.value) < max(FASTEST, 10 * top)]
     if above:
         first = min(above, key=lambda c: abs(c.value))
         return f"; above {speed_text(abs(first.value))} {_grows(first)}"

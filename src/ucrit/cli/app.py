@@ -14,6 +14,7 @@ from .errors import exit_status
 
 COMMANDS = {
     "analyze": "analyze",
+    "compare": "compare",
     "list": "listing",
     "show": "show",
     "new": "new",

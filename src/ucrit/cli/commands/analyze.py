@@ -28,6 +28,14 @@ NOT_STABLE = 3
 @click.option(
     "--report", type=click.Path(), metavar="FILE.html", help="Write a report: one page, with drawings."
 )
+@click.option(
+    "--map",
+    "map_parameters",
+    nargs=2,
+    metavar="X Y",
+    shell_complete=complete_parameters,
+    help="The two parameters of the report's stability map.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
 @click.option("--fail-if-unstable", is_flag=True, help="Leave with status 3 if not stable up to the speed.")
 def command(
@@ -35,6 +43,7 @@ def command(
     changes: tuple[str, ...],
     upto: str | None,
     report: str | None,
+    map_parameters: tuple[str, str] | None,
     as_json: bool,
     fail_if_unstable: bool,
 ) -> int:
@@ -47,7 +56,7 @@ def command(
       ucrit analyze caravan
       ucrit analyze caravan --upto "130 km/h"
       ucrit analyze caravan --set a=1.9 --set "m=2 t" --set "C=1.5 kN/deg"
-      ucrit analyze mine.toml --report mine.html
+      ucrit analyze mine.toml --report mine.html --map a m
       ucrit analyze mine.toml --upto 30 --json | jq .verdict.sentence
       ucrit analyze mine.toml --fail-if-unstable || echo "do not drive"
 
@@ -60,9 +69,11 @@ def command(
     """
     from ...analyses.analyze import analyze
 
+    if map_parameters and report is None:
+        raise click.UsageError("--map chooses what the report draws: give --report FILE.html too")
     found = analyze(load_vehicle(vehicle, assignments(changes, 'a=1.9 or "m=2 t"'), upto))
     if report is not None:
-        _write(found, report)
+        _write(found, report, map_parameters)
     if as_json:
         import json
 
@@ -75,11 +86,11 @@ def command(
     return NOT_STABLE if fail_if_unstable and not found.stable else 0
 
 
-def _write(found: Analysis, path: str) -> None:
+def _write(found: Analysis, path: str, map_parameters: tuple[str, str] | None) -> None:
     from ...core.errors import UcritError
     from ...report import write_report
 
     try:
-        write_report(found, path)
+        write_report(found, path, map_parameters=map_parameters)
     except OSError as error:
         raise UcritError(f"the report '{path}' cannot be written: {error.strerror or error}") from None
