@@ -22,7 +22,7 @@ os.environ["UCRIT_CACHE"] = "off"
 
 from rich.console import Console
 from rich.progress import track
-from rich.table import Table
+from rich.table import Column, Table
 
 from benchmarks.seeding import seeded
 from ucrit.catalogue import HERE, find_model, model_names, models_in
@@ -141,7 +141,7 @@ def same(original: type[Model], mutant: type[Model]) -> bool:
 
 def table(outcomes: list[tuple[Mutant, str]]) -> Table:
     """Return how many errors of each file were caught, and by which check first."""
-    shown = Table("file", "errors", "caught", "share", "caught first by", title="Seeded errors")
+    shown = Table(Column("file", no_wrap=True), "errors", "caught", "share", "caught first by")
     for file in sorted({mutant.file for mutant, _ in outcomes}):
         counts = Counter(
             result for mutant, result in outcomes if mutant.file == file and result != EQUIVALENT

@@ -125,8 +125,8 @@ def analyze(
     Examples
     --------
     >>> from ucrit import analyze
-    >>> print(analyze("caravan", upto="80 km/h").sentence)
-    stable at every speed up to 22.22 m/s (80 km/h)
+    >>> print(analyze("bmw-320i", upto="80 km/h").sentence)
+    stable at every speed up to 22.22 m/s (80 km/h), and at every higher one
     """
     subject = _subject(vehicle, upto, changes)
     if subject.dims:

@@ -225,7 +225,7 @@ def _observed(vehicle: Model) -> tuple[Array, Array, Array, Array, list[str]]:
 
 
 def to_control(vehicle: Model) -> Any:
-    """Return a `control.StateSpace` with named states, inputs and outputs (states, then declared outputs).
+    """Return a vehicle as a `control.StateSpace` with named states, inputs and outputs (states, then declared outputs).
 
     Raises
     ------
@@ -251,7 +251,7 @@ def to_control(vehicle: Model) -> Any:
 
 
 def to_scipy(vehicle: Model) -> Any:
-    """Return a `scipy.signal.StateSpace` whose outputs are the states, then the declared outputs.
+    """Return a vehicle as a `scipy.signal.StateSpace` whose outputs are the states, then the declared outputs.
 
     Raises `UcritError` if a parameter is an array.
 

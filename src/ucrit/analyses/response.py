@@ -153,10 +153,14 @@ def impulse_response(
     *,
     size: float = 1.0,
 ) -> TimeResponse:
-    """Return the response in time of outputs to an impulse of one input at time 0, of ``size`` in input unit
-    times s.
+    """Return the response in time of outputs to an impulse of one input at time 0.
 
-    Arguments, result and errors are those of `step_response`.
+    Parameters
+    ----------
+    vehicle, input, outputs, times
+        As those of `step_response`, and so are result and errors.
+    size
+        Area of the impulse, in the input's unit times s.
 
     Examples
     --------

@@ -262,10 +262,9 @@ def sign_inside(product: Any) -> Any:
 
 
 def axle_loads(vehicle: Model) -> tuple[Any, Any]:
-    """Return the static loads [N] of front and rear axle, of which the side forces in a steady turn are
-    shares.
+    """Return the static loads [N] of front and rear axle, of which side forces in a steady turn are shares.
 
-    Needs the parameters ``m`` [kg], ``a`` [m] and ``b`` [m]; `UcritError` tells which are missing.
+    The vehicle needs the parameters ``m`` [kg], ``a`` [m] and ``b`` [m]; `UcritError` tells which are missing.
 
     Examples
     --------

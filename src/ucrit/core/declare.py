@@ -142,7 +142,31 @@ def param(
     at_most: float = math.inf,
     default: float | None = None,
 ) -> Any:
-    """Declare a parameter: coherent SI unit, meaning, and the bounds outside which it makes no sense."""
+    """Declare a parameter: a constant of the vehicle.
+
+    Parameters
+    ----------
+    unit
+        Coherent SI unit, such as ``"kg m^2"``.
+    meaning
+        What it is, in words that fit into an error message.
+    above, below
+        Bounds that are not themselves allowed. A bound at zero tells the criteria the parameter's sign.
+    at_least, at_most
+        Bounds that are.
+    default
+        Value where none is given; without one, a value must be given.
+
+    Raises
+    ------
+    ModelError
+        If the unit cannot be read or no number is within the bounds.
+
+    Examples
+    --------
+    >>> param("kg", "mass", above=0).allowed
+    'above 0 kg'
+    """
     declared = Parameter(unit, meaning, "", above, below, at_least, at_most, default)
     if not declared.lower < declared.upper:
         raise ModelError(f"parameter '{meaning}': no number is {declared.allowed}")
@@ -150,33 +174,102 @@ def param(
 
 
 def speed(meaning: str = "forward speed", *, reverse: bool = False) -> Any:
-    """Declare the speed that the vehicle's stability is judged against [m/s].
+    """Declare the speed [m/s] that the vehicle's stability is judged against.
 
-    With ``reverse=True`` negative speeds (backing up) are allowed too; zero is no bound but a singular point.
+    Parameters
+    ----------
+    meaning
+        Which speed it is.
+    reverse
+        Whether negative speeds (backing up) are allowed too; zero never is, it is a singular point.
+
+    Examples
+    --------
+    >>> speed("speed of the car").unit
+    'm/s'
     """
     return Parameter("m/s", meaning, above=-math.inf if reverse else 0.0, is_speed=True)
 
 
 def state(unit: str, meaning: str, *, motion: str = "") -> Any:
-    """Declare a variable that enters with its first derivative; ``motion`` names its modes (``"yaw"``)."""
+    """Declare a variable that enters with its first derivative.
+
+    Parameters
+    ----------
+    unit, meaning
+        Coherent SI unit, and what it is in words.
+    motion
+        Word that names the modes in which it takes part most, such as ``"yaw"``; the meaning by default.
+
+    Examples
+    --------
+    >>> state("rad/s", "yaw rate", motion="yaw").order
+    1
+    """
     return Variable(unit, meaning, order=1, motion=motion)
 
 
 def coordinate(unit: str, meaning: str, *, motion: str = "") -> Any:
-    """Declare a generalised coordinate, which enters with its second derivative."""
+    """Declare a generalised coordinate: a variable that enters with its second derivative.
+
+    Parameters
+    ----------
+    unit, meaning
+        Coherent SI unit, and what it is in words.
+    motion
+        Word that names the modes in which it takes part most, such as ``"yaw"``; the meaning by default.
+
+    Examples
+    --------
+    >>> coordinate("rad", "yaw angle", motion="yaw").order
+    2
+    """
     return Variable(unit, meaning, order=2, motion=motion)
 
 
 def algebraic(unit: str, meaning: str) -> Any:
-    """Declare an unknown that enters without derivatives, such as a constraint force."""
+    """Declare an unknown that enters without derivatives, such as a constraint force.
+
+    Parameters
+    ----------
+    unit, meaning
+        Coherent SI unit, and what it is in words.
+
+    Examples
+    --------
+    >>> algebraic("N", "side force").order
+    0
+    """
     return Variable(unit, meaning, order=0)
 
 
 def input(unit: str, meaning: str) -> Any:
-    """Declare an input: a steer angle, a side force."""
+    """Declare an input: a steer angle, a side force.
+
+    Parameters
+    ----------
+    unit, meaning
+        Coherent SI unit, and what it is in words.
+
+    Examples
+    --------
+    >>> input("rad", "front steer angle").meaning
+    'front steer angle'
+    """
     return Input(unit, meaning)
 
 
 def output(unit: str, meaning: str) -> Any:
-    """Declare an output that the model's ``outputs`` method returns."""
+    """Declare an output that the model's ``outputs`` method returns.
+
+    Parameters
+    ----------
+    unit, meaning
+        Coherent SI unit, and what it is in words.
+
+    Examples
+    --------
+    >>> output("m/s^2", "lateral acceleration").unit
+    'm/s^2'
+    """
     return Output(unit, meaning)
