@@ -29,7 +29,7 @@ def modules():
 def test_every_argument_of_a_public_function_is_documented(name):
     function = getattr(ucrit, name)
     text = inspect.getdoc(function)
-    assert text and text[0].isupper() and text.splitlines()[0].endswith(".")
+    assert re.match(r"[A-Z].*\.$", text.splitlines()[0])
     missing = [p for p in inspect.signature(function).parameters if not re.search(rf"\b{p}\b", text)]
     assert not missing, f"{name} does not explain {missing}"
 
