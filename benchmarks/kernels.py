@@ -85,18 +85,12 @@ def plane() -> list[Row]:
     eigvals = median["eigvals"] * 10
     result = stability_map(trailer, b=b, k=k)
     agree = sum(
-        int(
-            np.count_nonzero(
-                row == (np.linalg.eigvals(state_space(grid.with_(b=[x])).A).real.max(axis=-1) < 0)
-            )
-        )
+        int(np.count_nonzero(row == (np.linalg.eigvals(state_space(grid.with_(b=[x])).A).real.max(axis=-1) < 0)))
         for x, row in zip(b, result.stable[:, None, :], strict=True)
     )
     return [
         Row(f"\nStability of an undamped trailer at {SIDE} x {SIDE} points (CPU time)"),
-        Row(
-            "numpy.linalg.eigvals, batched, matrices given", eigvals, 1.0, note="measured at a tenth, scaled"
-        ),
+        Row("numpy.linalg.eigvals, batched, matrices given", eigvals, 1.0, note="measured at a tenth, scaled"),
         compared("coefficients and Lienard-Chipart, whole arrays", median["plain"], eigvals),
         compared("ucrit stability_map", median["blocked"], eigvals, MAP_LIMIT),
         Row(

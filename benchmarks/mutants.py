@@ -62,9 +62,7 @@ def mutants(wanted: list[str]) -> list[Mutant]:
     parts: dict[str, dict[str, list[str]]] = {}
     for name in wanted:
         path = HERE / "models" / f"{name.replace('-', '_')}.py"
-        found += [
-            Mutant(f"models/{path.name}", *m, (name,)) for m in seeded(path.read_text(), find_model(name))
-        ]
+        found += [Mutant(f"models/{path.name}", *m, (name,)) for m in seeded(path.read_text(), find_model(name))]
         for part, functions in imported_parts(path):
             users = parts.setdefault(part, {})
             for function in functions:
@@ -143,9 +141,7 @@ def table(outcomes: list[tuple[Mutant, str]]) -> Table:
     """Return how many errors of each file were caught, and by which check first."""
     shown = Table(Column("file", no_wrap=True), "errors", "caught", "share", "caught first by")
     for file in sorted({mutant.file for mutant, _ in outcomes}):
-        counts = Counter(
-            result for mutant, result in outcomes if mutant.file == file and result != EQUIVALENT
-        )
+        counts = Counter(result for mutant, result in outcomes if mutant.file == file and result != EQUIVALENT)
         total, caught = counts.total(), counts.total() - counts[SURVIVED]
         first = ", ".join(f"{check} {n}" for check, n in counts.most_common() if check != SURVIVED)
         shown.add_row(file, str(total), str(caught), f"{caught / max(total, 1):.1%}", first)

@@ -104,9 +104,7 @@ def _from_file(path: Path, cls: str) -> type[Model]:
     return models[cls]
 
 
-def load(
-    vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = None, at_speed: Any = None
-) -> Model:
+def load(vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = None, at_speed: Any = None) -> Model:
     """Return a vehicle: one that is shipped, by name, or one from a TOML file.
 
     Parameters

@@ -143,13 +143,7 @@ def test_declared_and_never_used(unused):
         def equations(self, x, dx, ddx, u):
             drag = 0 if unused == "d" else self.d * abs(dx.y) * dx.y
             inertia = 0 if unused == "rate" else self.m * ddx.y
-            return (
-                inertia
-                + drag
-                + self.k * x.y
-                + self.m * self.k / self.m * x.y * 0
-                - (0 if unused == "F" else u.F)
-            )
+            return inertia + drag + self.k * x.y + self.m * self.k / self.m * x.y * 0 - (0 if unused == "F" else u.F)
 
         def outputs(self, x, dx, u):
             return {"power": self.k * x.y * dx.y}
@@ -177,9 +171,7 @@ def test_derivation_that_differs_in_the_nonlinear_motion_only():
             return force + self.m * self.a * dx.theta**2 * sin(x.theta), moment
 
     report = check_model(Second)
-    assert [check.detail for check in report.failed] == [
-        "equations_newton gives another x'' in the non-linear motion"
-    ]
+    assert [check.detail for check in report.failed] == ["equations_newton gives another x'' in the non-linear motion"]
 
 
 def test_constrained_derivation_that_differs():

@@ -14,11 +14,7 @@ SMALL = st.integers(-3, 3)
 
 
 @settings(max_examples=150, deadline=None)
-@given(
-    st.integers(0, 5).flatmap(
-        lambda n: st.lists(st.lists(SMALL, min_size=n, max_size=n), min_size=n, max_size=n)
-    )
-)
+@given(st.integers(0, 5).flatmap(lambda n: st.lists(st.lists(SMALL, min_size=n, max_size=n), min_size=n, max_size=n)))
 def test_determinant_equals_sympy(matrix):
     assert determinant(matrix) == sp.Matrix(len(matrix), len(matrix), lambda i, j: matrix[i][j]).det()
 
@@ -52,10 +48,7 @@ POLYNOMIALS = st.lists(st.lists(SMALL | st.floats(-9, 9), max_size=4), min_size=
 @settings(max_examples=100, deadline=None)
 @given(POLYNOMIALS, st.fractions(-5, 5, max_denominator=7))
 def test_hurwitz_polynomial_equals_the_minor_at_every_point(coefficients, p):
-    a = [
-        sum((Fraction(c) * p**k for k, c in enumerate(polynomial)), Fraction(0))
-        for polynomial in coefficients
-    ]
+    a = [sum((Fraction(c) * p**k for k, c in enumerate(polynomial)), Fraction(0)) for polynomial in coefficients]
     polynomial = hurwitz_polynomial(coefficients)
     minor = hurwitz_determinants(a)[-2] if len(a) > 2 else 1
     assert sum(c * p**k for k, c in enumerate(polynomial)) == minor

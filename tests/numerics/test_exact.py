@@ -69,12 +69,8 @@ def test_square_free_finds_the_multiplicities(roots, complex_pair):
     factors = square_free(product(parts + [[2, 1, 3]] * 2 * complex_pair))
     for factor, times in factors:
         assert len(gcd(factor, derivative(factor))) == 1
-        assert [x for x in range(-6, 7) if value(factor, x) == 0] == sorted(
-            x for x in roots if roots[x] == times
-        )
-    assert (
-        sum((len(factor) - 1) * times for factor, times in factors) == sum(roots.values()) + 4 * complex_pair
-    )
+        assert [x for x in range(-6, 7) if value(factor, x) == 0] == sorted(x for x in roots if roots[x] == times)
+    assert sum((len(factor) - 1) * times for factor, times in factors) == sum(roots.values()) + 4 * complex_pair
 
 
 ROOTS = st.dictionaries(
@@ -117,9 +113,7 @@ def test_irrational_roots_equal_mpmath(p, exponents):
     with mpmath.workdps(400):
         exact = [mpmath.mpf(c.numerator) / c.denominator for c in p]
         for root in found:
-            near = mpmath.findroot(
-                lambda x: mpmath.polyval(exact[::-1], x), mpmath.mpf(root), tol=1e-300, verify=False
-            )
+            near = mpmath.findroot(lambda x: mpmath.polyval(exact[::-1], x), mpmath.mpf(root), tol=1e-300, verify=False)
             assert float(near) == root
 
 
@@ -171,10 +165,7 @@ def test_bad_arguments_are_refused():
 @pytest.mark.parametrize(("order", "degree", "limit"), [(4, 3, 0.005), (8, 4, 0.150)])
 def test_critical_values_are_fast(order, degree, limit):
     source = random.Random(1)
-    family = [
-        [source.gauss(0, 1) * 10 ** source.uniform(-3, 4) for _ in range(degree + 1)]
-        for _ in range(order + 1)
-    ]
+    family = [[source.gauss(0, 1) * 10 ** source.uniform(-3, 4) for _ in range(degree + 1)] for _ in range(order + 1)]
     best = math.inf
     for _ in range(5):
         start = time.process_time()

@@ -45,9 +45,7 @@ SIMPLE = [
 def test_roots_on_the_axis_are_not_right_of_it(parts, whole, scale):
     a = reduce(multiply, parts)
     exact = routh(a)
-    scaled = [
-        float(Fraction(c) * Fraction(2) ** whole * Fraction(2) ** (12 * scale * k)) for k, c in enumerate(a)
-    ]
+    scaled = [float(Fraction(c) * Fraction(2) ** whole * Fraction(2) ** (12 * scale * k)) for k, c in enumerate(a)]
     assert right_half_plane(scaled) == exact.right_half_plane
     assert bool(stable(a)) == (exact.right_half_plane == 0 == exact.imaginary_axis)
 
@@ -152,9 +150,7 @@ def test_too_few_coefficients_are_refused():
 
 @settings(max_examples=200, deadline=None)
 @given(
-    st.lists(st.tuples(st.integers(-2, 3), st.integers(-300, 290)), min_size=2, max_size=8).filter(
-        lambda a: a[-1][0]
-    )
+    st.lists(st.tuples(st.integers(-2, 3), st.integers(-300, 290)), min_size=2, max_size=8).filter(lambda a: a[-1][0])
 )
 def test_any_doubles_are_counted_exactly(terms):
     a = [c * 10.0**e for c, e in terms]

@@ -65,9 +65,7 @@ def test_epsilon_would_fail_here():
 
 def test_zero_row_is_explained():
     array = routh([8, 8, 10, 2, 2])
-    assert array.notes == (
-        "row s^1 vanished; replaced by the derivative of the auxiliary polynomial 2 s^2 + 8",
-    )
+    assert array.notes == ("row s^1 vanished; replaced by the derivative of the auxiliary polynomial 2 s^2 + 8",)
     assert array.rows == ((2, 10, 8), (2, 8), (2, 8), (4,), (8,))
 
 
@@ -130,9 +128,7 @@ def test_roots_at_zero_lie_on_the_axis():
     assert routh([5]).imaginary_axis == 0
 
 
-@pytest.mark.parametrize(
-    "bad", [[], [0, 0.0], [1, math.nan], [1, math.inf], ["1", 2], [1j, 1], [sp.oo, 1], [sp.I, 1]]
-)
+@pytest.mark.parametrize("bad", [[], [0, 0.0], [1, math.nan], [1, math.inf], ["1", 2], [1j, 1], [sp.oo, 1], [sp.I, 1]])
 def test_bad_input_is_refused(bad):
     with pytest.raises(ValueError, match="coefficient"):
         routh(bad)

@@ -29,9 +29,7 @@ def follows(permutation, order):
     return (np.take_along_axis(order, permutation, axis=1) == order[0]).all()
 
 
-COSTS = st.integers(1, 6).flatmap(
-    lambda n: hnp.arrays(float, (20, n, n), elements=st.integers(0, 3).map(float))
-)
+COSTS = st.integers(1, 6).flatmap(lambda n: hnp.arrays(float, (20, n, n), elements=st.integers(0, 3).map(float)))
 
 
 @settings(max_examples=100, deadline=None)
@@ -107,10 +105,7 @@ def test_complex_pairs_keep_their_sides_and_their_identity(seed):
     source = np.random.default_rng(seed)
     p = np.linspace(0, 1, 400)
     c = source.normal(size=(2, 4))
-    pairs = [
-        c[k, 0] + c[k, 1] * np.sin(2 * p + c[k, 2]) + 1j * (2 * k + 2 + np.cos(3 * p + c[k, 3]))
-        for k in (0, 1)
-    ]
+    pairs = [c[k, 0] + c[k, 1] * np.sin(2 * p + c[k, 2]) + 1j * (2 * k + 2 + np.cos(3 * p + c[k, 3])) for k in (0, 1)]
     real = source.normal() + np.cos(4 * p)
     branches = np.stack([pairs[0], pairs[0].conj(), pairs[1], pairs[1].conj(), real], axis=1)
     values, _, order = shuffled(branches, None, seed)
@@ -210,9 +205,7 @@ def test_adaptive_tracking_from_few_points_equals_dense_tracking(seed):
     picked = np.unique(np.linspace(first, last, 15).astype(int))
     coarse = track_adaptive(family, dense[picked])
     branches = coarse.branches
-    expected = np.take_along_axis(
-        fine.branches, np.argsort(fine.permutation[first])[None, :].repeat(8001, 0), axis=1
-    )
+    expected = np.take_along_axis(fine.branches, np.argsort(fine.permutation[first])[None, :].repeat(8001, 0), axis=1)
     assert coarse.vectors.shape == (len(picked), 4, 4)
     assert coarse.shapes.shape == (len(picked), 4, 4)
     np.testing.assert_allclose(branches, expected[picked], rtol=1e-9, atol=1e-9)

@@ -59,7 +59,7 @@ def conditions(polynomial: CharacteristicPolynomial, parameters: Sequence[Any], 
             found.remove(pair)
     return {
         "conditions": [condition for condition, _ in found],
-        "kind": "neutral" if even else "asymptotic",
+        "kind": "neutral" if even or len(a) == 1 else "asymptotic",
         "settled": None if found else settled,
         "zeros": polynomial.zeros,
         "order": len(a) - 1,

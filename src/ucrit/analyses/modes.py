@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ..core.compiled import labels, state_space
 from ..core.errors import UcritError
 from ..core.model import Model
+from ..numerics.assignment import assign
 from .convert import Series, Table, Tabular, complex_series, unit_of
 
 Array = npt.NDArray[Any]
@@ -97,7 +98,8 @@ class Modes(Tabular):
         if self.eigenvalues.ndim != 1:
             raise UcritError("modes of a vehicle with array parameters are arrays: use .eigenvalues and .participation")
         kept = [k for k, value in enumerate(self.eigenvalues) if value.imag >= 0]
-        names = _distinct([(self._name(k), self.eigenvalues[k]) for k in kept])
+        named = [f"{motion} {self._going(k)}" for motion, k in zip(self._motions(kept), kept, strict=True)]
+        names = _distinct(list(zip(named, self.eigenvalues[kept], strict=True)))
         return [
             Mode(
                 name,
@@ -139,18 +141,39 @@ class Modes(Tabular):
         values = np.array([v if "'" not in label else 0 for v, label in pairs])
         return np.asarray(self.vectors[:, k] / values[np.argmax(abs(values))])
 
-    def _name(self, k: int) -> str:
+    def _motions(self, kept: list[int]) -> list[str]:
+        """Return the motion that each of the kept modes is named after.
+
+        It is that of the variable that takes part most. A model whose variables name as many motions as it has modes
+        may say ``one_mode_each = True``: each motion then names the one mode in which it has its share, such that
+        all shares together are largest.
+        """
+        rows: dict[str, list[int]] = {}
+        motions = [self._motion(label.rstrip("'")) for label in self.labels]
+        for i, motion in enumerate(motions):
+            rows.setdefault(motion, []).append(i)
+        if getattr(type(self.vehicle), "one_mode_each", False) and len(rows) == len(kept):
+            shares = np.array([[self.participation[own, k].sum() for own in rows.values()] for k in kept])
+            return [list(rows)[i] for i in assign(1 - shares[None])[0]]
+        return [self._motion(self._most(k)) for k in kept]
+
+    def _most(self, k: int) -> str:
+        """Return the variable that takes part most in a mode, its rates included."""
         share: dict[str, float] = {}
         for label, part in zip(self.labels, self.participation[:, k], strict=True):
             base = label.rstrip("'")
             share[base] = share.get(base, 0.0) + float(part)
-        top = max(share, key=lambda name: share[name])
-        variable = type(self.vehicle).declaration.variables.get(top)
-        motion = (variable and (variable.motion or variable.meaning)) or top
+        return max(share, key=lambda name: share[name])
+
+    def _motion(self, name: str) -> str:
+        variable = type(self.vehicle).declaration.variables.get(name)
+        return (variable and (variable.motion or variable.meaning)) or name
+
+    def _going(self, k: int) -> str:
         value = complex(self.eigenvalues[k])
         if value == 0:
-            return f"{motion} position"
-        return f"{motion} {'oscillation' if value.imag else 'decay' if value.real < 0 else 'divergence'}"
+            return "position"
+        return "oscillation" if value.imag else "decay" if value.real < 0 else "divergence"
 
     @property
     def growth(self) -> Array:

@@ -44,6 +44,8 @@ class Verdict:
         if self.growing:
             how = "statically" if self.static == "unstable" else "dynamically"
             text = f"{how} unstable: {self.growing} growing root{'s' if self.growing > 1 else ''}"
+        elif self.state == "neutral" and not self.marginal:
+            text = "neutral: nothing grows and nothing dies out"
         elif self.marginal:
             text = (
                 f"neutral: {self.marginal} root{'s' if self.marginal > 1 else ''} on the imaginary axis, nothing grows"

@@ -65,7 +65,10 @@ def _stable(subject: Subject, sets: list[Array], direction: int) -> tuple[Flags,
 def derived_criterion(subject: Subject) -> str:
     """The symbolic criterion derived from the model is met exactly where the eigenvalues say stable."""
     for direction in subject.directions:
-        order = len(subject.system(direction).polynomial.coefficients) - 1
+        polynomial = subject.system(direction).polynomial
+        order = len(polynomial.coefficients) - 1
+        if order == polynomial.zeros:
+            raise NotApplicableError("every eigenvalue is zero, whatever the parameters")
         if order > MAX_ORDER:
             raise NotApplicableError(f"criteria in all parameters are for order {MAX_ORDER} at most, not {order}")
         try:

@@ -9,6 +9,7 @@ import numpy as np
 import sympy as sp
 
 from ..core.codegen import build, generate
+from ..core.nonlinear import constraints
 from ..core.trace import Traced
 from .sample import Array
 from .subject import Subject
@@ -34,16 +35,6 @@ def random_states(subject: Subject, purpose: str, count: int = COUNT) -> States:
     w = w + rng.uniform(-REACH, REACH, (len(traced.states), count))
     u = u + rng.uniform(-REACH, REACH, (len(traced.u), count))
     return States(_onto(constraints(traced), traced, w, u, parameters), u, parameters)
-
-
-def constraints(traced: Traced) -> list[Any]:
-    """Return what must vanish at every instant: residuals free of highest derivatives and their own rates."""
-    found, highest = [], set(traced.highest)
-    for residual in traced.residuals:
-        while residual.free_symbols and not residual.free_symbols & highest:
-            found.append(residual)
-            residual = traced.time_derivative(residual)
-    return found
 
 
 def _onto(conditions: list[Any], traced: Traced, w: Array, u: Array, parameters: list[Array]) -> Array:

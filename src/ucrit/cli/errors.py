@@ -58,17 +58,13 @@ def usage_sentence(error: click.ClickException) -> str:
 
 
 def _options(params: Iterable[click.Parameter]) -> list[str]:
-    return [name for p in params if isinstance(p, click.Option) for name in (*p.opts, *p.secondary_opts)] + [
-        "--help"
-    ]
+    return [name for p in params if isinstance(p, click.Option) for name in (*p.opts, *p.secondary_opts)] + ["--help"]
 
 
 def _nearest(name: str, known: list[str]) -> str | None:
     from difflib import get_close_matches
 
-    return next(
-        iter(get_close_matches(name, [k for k in known if k.startswith("--")], n=1, cutoff=0.5)), None
-    )
+    return next(iter(get_close_matches(name, [k for k in known if k.startswith("--")], n=1, cutoff=0.5)), None)
 
 
 def _quiet_end() -> int:

@@ -17,9 +17,7 @@ class Name(click.ParamType):  # type: ignore[type-arg]
         self.kinds, self.suffix = kinds, suffix
         self.name = " or ".join([*kinds, "file"])
 
-    def shell_complete(
-        self, ctx: click.Context, param: click.Parameter, incomplete: str
-    ) -> list[CompletionItem]:
+    def shell_complete(self, ctx: click.Context, param: click.Parameter, incomplete: str) -> list[CompletionItem]:
         """Return names that begin with what is typed, then files and folders."""
         from .. import catalogue
 
@@ -37,11 +35,7 @@ def _files(incomplete: str, suffix: str) -> list[str]:
         entries = sorted(folder.iterdir())
     except OSError:
         return []
-    kept = [
-        e
-        for e in entries
-        if e.name.startswith(stem) and (e.is_dir() or e.suffix == suffix) and e.name[0] != "."
-    ]
+    kept = [e for e in entries if e.name.startswith(stem) and (e.is_dir() or e.suffix == suffix) and e.name[0] != "."]
     lead = f"{start}/" if "/" in incomplete else ""
     return [lead + e.name + ("/" if e.is_dir() else "") for e in kept]
 
@@ -88,9 +82,7 @@ def load_vehicle(name: str, changes: dict[str, Any] | None = None, at_speed: str
     from ..core.errors import UcritError
 
     if name not in vehicle_names() and name.replace("_", "-") in model_names() and not Path(name).exists():
-        raise UcritError(
-            f"'{name}' is a model, not a vehicle; 'ucrit new {name} > mine.toml' gives a file to fill in"
-        )
+        raise UcritError(f"'{name}' is a model, not a vehicle; 'ucrit new {name} > mine.toml' gives a file to fill in")
     vehicle = load(name, changes, at_speed)
     speed = type(vehicle).declaration.speed
     if at_speed is not None and speed in (changes or {}):

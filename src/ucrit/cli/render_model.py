@@ -24,9 +24,7 @@ def show_listing(console: Console, found: Listing) -> None:
     """Print the listing, a line each; vehicles are grouped by their model."""
     page = Page(console)
     if found.models:
-        page.line(
-            ("Models", "bold"), ("   ucrit show NAME: the equations, ucrit new NAME: a vehicle file", "dim")
-        )
+        page.line(("Models", "bold"), ("   ucrit show NAME: the equations, ucrit new NAME: a vehicle file", "dim"))
         _entries(page, found.models, _widest(found.models))
     if found.models and found.vehicles:
         page.line()

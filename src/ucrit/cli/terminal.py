@@ -90,9 +90,7 @@ class Page:
         if cut:
             self.line(" " * indent, (f"... {cut} more lines", "dim"))
 
-    def table(
-        self, rows: Sequence[Sequence[str]], head: Sequence[str] = (), right: Sequence[int] = ()
-    ) -> None:
+    def table(self, rows: Sequence[Sequence[str]], head: Sequence[str] = (), right: Sequence[int] = ()) -> None:
         """Print columns, those in ``right`` aligned right; the last column takes what is left and wraps."""
         everything = [head, *rows] if head else list(rows)
         if not everything:
@@ -101,10 +99,7 @@ class Page:
         widths = [max(len(row[i]) for row in everything) for i in range(count)]
         last = max(self.width - 2 - sum(w + 2 for w in widths[:-1]), 20)
         for number, row in enumerate(everything):
-            cells = [
-                c.rjust(w) if i in right else c.ljust(w)
-                for i, (c, w) in enumerate(zip(row, widths, strict=True))
-            ]
+            cells = [c.rjust(w) if i in right else c.ljust(w) for i, (c, w) in enumerate(zip(row, widths, strict=True))]
             lead = "  " + "".join(cell + "  " for cell in cells[:-1])
             wrapped = textwrap.wrap(printable(row[-1]), last, break_on_hyphens=False) or [""]
             if count - 1 in right:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import sympy as sp
 
@@ -48,3 +49,13 @@ def solve_for_highest(traced: Traced) -> Explicit:
         raise ModelError(f"{traced.model.model_id()}: the equations are not linear in the highest derivatives")
     rest = dict.fromkeys(z, sp.S.Zero)
     return Explicit(M, sp.Matrix([-r.xreplace(rest) for r in residuals]))
+
+
+def constraints(traced: Traced) -> list[Any]:
+    """Return what must vanish at every instant: residuals free of highest derivatives and their own rates."""
+    found, highest = [], set(traced.highest)
+    for residual in traced.residuals:
+        while residual.free_symbols and not residual.free_symbols & highest:
+            found.append(residual)
+            residual = traced.time_derivative(residual)
+    return found

@@ -36,9 +36,7 @@ def assign(cost: Float) -> Index:
     """
     n = cost.shape[1]
     links = cost.argmin(axis=2)
-    taken = (
-        np.bitwise_or.reduce(np.left_shift(1, links), axis=1) if n < 63 else np.zeros(len(cost), dtype=int)
-    )
+    taken = np.bitwise_or.reduce(np.left_shift(1, links), axis=1) if n < 63 else np.zeros(len(cost), dtype=int)
     hard = np.flatnonzero(taken != (1 << min(n, 63)) - 1)
     if len(hard):
         links[hard], optimal = _greedy(cost[hard])

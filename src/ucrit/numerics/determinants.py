@@ -93,9 +93,7 @@ def hurwitz_determinants(a: Sequence[Any], divide: Division | None = None) -> li
     minors: list[Any] = []
     for k in range(len(rows)):
         if minors and minors[-1] == 0:  # elimination without row swaps ends here
-            minors += [
-                determinant([row[:m] for row in matrix[:m]], divide) for m in range(k + 1, len(rows) + 1)
-            ]
+            minors += [determinant([row[:m] for row in matrix[:m]], divide) for m in range(k + 1, len(rows) + 1)]
             break
         minors.append(rows[k][k])
         _eliminate(rows, k, minors[-2] if k else None, divide)
@@ -138,9 +136,7 @@ def hurwitz_polynomial(coefficients: Sequence[Sequence[Any]]) -> list[Fraction]:
 
     degrees = corner([max(len(polynomial) - 1, 0) for polynomial in integers])
     degree = min(sum(map(max, degrees)), sum(map(max, zip(*degrees, strict=True))))
-    nodes = [
-        (k + 1) // 2 * (-1) ** k for k in range(degree + 1)
-    ]  # 0, -1, 1, -2, 2 ... keep the numbers short
+    nodes = [(k + 1) // 2 * (-1) ** k for k in range(degree + 1)]  # 0, -1, 1, -2, 2 ... keep the numbers short
     minors = [determinant(corner([_at_integer(polynomial, x) for polynomial in integers])) for x in nodes]
     return [x / scale**size for x in interpolate(nodes, minors)]
 

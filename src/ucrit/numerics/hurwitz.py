@@ -209,9 +209,7 @@ def _count_by_eigenvalues(a: Array) -> tuple[NDArray[np.int64], NDArray[np.bool_
             noise = noise * np.abs(roots) + np.abs(c)
         apart = a[:, -1:] * np.prod(roots[:, :, None] - roots[:, None, :], axis=2, where=others)
         if not last:
-            roots = (
-                roots - value / apart
-            )  # Weierstrass' correction: eigenvalues are accurate for large roots only
+            roots = roots - value / apart  # Weierstrass' correction: eigenvalues are accurate for large roots only
     radius = 2 * degree * (np.abs(value) + 4 * degree * _EPS * noise) / np.abs(apart)
     clear = (np.abs(roots.real) > radius) & np.isfinite(apart)
     return np.sum(roots.real > 0, axis=1), usable & clear.all(axis=1)

@@ -115,9 +115,7 @@ def refine(p: Sequence[Any], interval: tuple[Any, Any]) -> float:
     before = _sign(_value(f, lo)) or _sign(_value(derivative(f), lo))
     after = _sign(_value(f, hi)) or -_sign(_value(derivative(f), hi))
     if before == after:
-        raise ValueError(
-            f"the polynomial has the same sign at {lo} and {hi}: the interval must isolate a simple root"
-        )
+        raise ValueError(f"the polynomial has the same sign at {lo} and {hi}: the interval must isolate a simple root")
     if lo < 0 < hi:
         centre = _sign(_value(f, Fraction(0)))
         return refine(f, (0, 0) if not centre else (lo, 0) if centre == after else (0, hi))

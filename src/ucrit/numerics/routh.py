@@ -50,8 +50,7 @@ class RouthArray:
         width = [max(len(row[j]) for row in cells if j < len(row)) for j in range(len(cells[0]))]
         label = max(len(f"s^{power}") for power in self.powers)
         lines = [
-            f"{f's^{power}':<{label}} | "
-            + "  ".join(f"{text:>{size}}" for text, size in zip(row, width, strict=False))
+            f"{f's^{power}':<{label}} | " + "  ".join(f"{text:>{size}}" for text, size in zip(row, width, strict=False))
             for power, row in zip(self.powers, cells, strict=True)
         ]
         return "\n".join([*lines, *self.notes, *self._verdict()])

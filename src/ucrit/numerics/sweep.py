@@ -40,9 +40,7 @@ class Sweep:
         count = len(self.values)
         turns = np.diff(self.parameter)
         if self.parameter.shape != (count,) or not ((turns > 0).all() or (turns < 0).all()):
-            raise ValueError(
-                f"parameter of shape {self.parameter.shape}: it must rise or fall over all {count} points"
-            )
+            raise ValueError(f"parameter of shape {self.parameter.shape}: it must rise or fall over all {count} points")
         # Scales of the whole sweep: of the eigenvalues and, so that units cancel, of every component.
         self._size = max(float(np.abs(self.values).max()), np.finfo(float).tiny)
         self._units = None if self.vectors is None else np.abs(self.vectors).max(axis=(0, 2))
@@ -186,9 +184,7 @@ class Sweep:
         there = np.take_along_axis(self.values[steps + 1], self.links[steps], axis=1)
         apart = np.zeros(doubt.shape, dtype=bool)
         for row in (here, there):
-            apart |= (
-                np.abs(row[:, :, None] - row[:, None, :]) > _SAME * np.abs(row).max(axis=1)[:, None, None]
-            )
+            apart |= np.abs(row[:, :, None] - row[:, None, :]) > _SAME * np.abs(row).max(axis=1)[:, None, None]
         return np.asarray((apart & doubt).any(axis=(1, 2)))
 
 
@@ -215,13 +211,9 @@ def _check(values: Complex, vectors: Vectors | None) -> None:
     if not np.isfinite(values).all():
         raise ValueError(f"{np.sum(~np.isfinite(values))} eigenvalues are not finite: all must be")
     if vectors is not None and vectors.shape != (*values.shape, values.shape[1]):
-        raise ValueError(
-            f"eigenvectors of shape {vectors.shape}: it must be {(*values.shape, values.shape[1])}"
-        )
+        raise ValueError(f"eigenvectors of shape {vectors.shape}: it must be {(*values.shape, values.shape[1])}")
     if vectors is not None and not np.isfinite(vectors).all():
-        raise ValueError(
-            f"{np.sum(~np.isfinite(vectors))} eigenvector components are not finite: all must be"
-        )
+        raise ValueError(f"{np.sum(~np.isfinite(vectors))} eigenvector components are not finite: all must be")
 
 
 def _blocks(steps: Index) -> list[Index]:

@@ -102,9 +102,7 @@ def refine_where(
     sweep = Sweep.unlinked(values, vectors, parameter)
     order = np.asarray(perm)
     if order.shape != sweep.values.shape or (np.sort(order, axis=1) != np.arange(order.shape[1])).any():
-        raise ValueError(
-            f"permutation of shape {order.shape}: it must be a permutation of each row of the eigenvalues"
-        )
+        raise ValueError(f"permutation of shape {order.shape}: it must be a permutation of each row of the eigenvalues")
     sweep.links = np.take_along_axis(order[1:], np.argsort(order[:-1], axis=1), axis=1)
     return sweep.doubtful(np.arange(len(sweep.links)))
 
@@ -154,9 +152,7 @@ def track_adaptive(function: Family, parameter_values: ArrayLike, max_depth: int
         local = sweep.restricted(rows)
         order = _refined(local, np.searchsorted(rows, steps), function, max_depth, len(where))
         whole = np.flatnonzero(np.diff(rows) == 1)
-        sweep.links[rows[whole]] = np.take_along_axis(
-            order[whole + 1], np.argsort(order[whole], axis=1), axis=1
-        )
+        sweep.links[rows[whole]] = np.take_along_axis(order[whole + 1], np.argsort(order[whole], axis=1), axis=1)
     given = None if vectors is None else np.asarray(vectors)
     return Tracked(np.asarray(values, dtype=complex), given, sweep.permutation())
 

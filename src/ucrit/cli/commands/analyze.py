@@ -25,9 +25,7 @@ NOT_STABLE = 3
     help="Change a parameter; may be repeated.",
 )
 @click.option("--upto", metavar="SPEED", help="Judge up to this speed; the vehicle's own by default.")
-@click.option(
-    "--report", type=click.Path(), metavar="FILE.html", help="Write a report: one page, with drawings."
-)
+@click.option("--report", type=click.Path(), metavar="FILE.html", help="Write a report: one page, with drawings.")
 @click.option(
     "--map",
     "map_parameters",

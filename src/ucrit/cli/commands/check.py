@@ -14,9 +14,7 @@ FAILED = 1
 
 @click.command("check", short_help="Check a model against units, literature, symmetry, energy.")
 @click.argument("model", type=Name("model", "vehicle", suffix=".py"))
-@click.option(
-    "--published", metavar="FILE.toml", type=click.Path(), help="Equations and numbers to compare with."
-)
+@click.option("--published", metavar="FILE.toml", type=click.Path(), help="Equations and numbers to compare with.")
 def command(model: str, published: str | None) -> int:
     """Check MODEL: units, published equations and numbers, further derivations, symmetry, energy.
 

@@ -9,9 +9,7 @@ from ..parameters import Name
 
 @click.command("new", short_help="Print a vehicle file to fill in.")
 @click.argument("model", type=Name("model", "vehicle", suffix=".py"))
-@click.option(
-    "--like", metavar="VEHICLE", type=Name("vehicle", suffix=".toml"), help="Take a vehicle's values."
-)
+@click.option("--like", metavar="VEHICLE", type=Name("vehicle", suffix=".toml"), help="Take a vehicle's values.")
 def command(model: str, like: str | None) -> None:
     """Print a vehicle file for MODEL, each parameter with its unit, meaning and bounds.
 

@@ -20,9 +20,7 @@ FORMATS = {".csv": "to_csv", ".nc": "to_netcdf", ".json": "to_json", ".mat": "to
 
 @click.command("sweep", short_help="Stability over ranges of parameters, as a table.")
 @click.argument("vehicle", type=Name("vehicle", suffix=".toml"))
-@click.argument(
-    "ranges", nargs=-1, required=True, metavar="NAME=RANGE...", shell_complete=complete_parameters
-)
+@click.argument("ranges", nargs=-1, required=True, metavar="NAME=RANGE...", shell_complete=complete_parameters)
 @click.option(
     "--set",
     "changes",
@@ -31,9 +29,7 @@ FORMATS = {".csv": "to_csv", ".nc": "to_netcdf", ".json": "to_json", ".mat": "to
     shell_complete=complete_parameters,
     help="Change a parameter that is not swept; may be repeated.",
 )
-@click.option(
-    "-o", "--output", metavar="FILE", help="Write .csv, .nc (netCDF), .json or .mat; else CSV on stdout."
-)
+@click.option("-o", "--output", metavar="FILE", help="Write .csv, .nc (netCDF), .json or .mat; else CSV on stdout.")
 def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], output: str | None) -> None:
     """Tabulate stability, growth, damping and eigenvalues for every combination of parameters.
 
