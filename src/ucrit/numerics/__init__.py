@@ -3,11 +3,11 @@
 Coefficients of polynomials are in ascending powers everywhere, ``a[0] + a[1] s + ... + a[n] s^n``.
 """
 
-from ucrit.numerics.determinants import determinant, hurwitz_determinants, hurwitz_matrix, hurwitz_polynomial
-from ucrit.numerics.hurwitz import right_half_plane, stable
-from ucrit.numerics.real_roots import isolate, real_roots, refine
-from ucrit.numerics.routh import RouthArray, routh
-from ucrit.numerics.tracking import Tracked, refine_where, track, track_adaptive
+from .determinants import determinant, hurwitz_determinants, hurwitz_matrix, hurwitz_polynomial
+from .hurwitz import right_half_plane, stable
+from .real_roots import isolate, real_roots, refine
+from .routh import RouthArray, routh
+from .tracking import Tracked, refine_where, track, track_adaptive
 
 __all__ = [
     "RouthArray",

@@ -5,7 +5,7 @@ from fractions import Fraction
 from math import lcm
 from typing import Any
 
-from ucrit.numerics.exact import interpolate, rational
+from .exact import interpolate, rational
 
 Division = Callable[[Any, Any], Any]
 

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ucrit.numerics.routh import routh
+from .routh import routh
 
 Array = NDArray[np.float64]
 

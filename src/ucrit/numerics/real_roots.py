@@ -12,7 +12,7 @@ from itertools import accumulate, pairwise
 from math import inf
 from typing import Any
 
-from ucrit.numerics.exact import derivative, divmod_, gcd, primitive, rational, square_free
+from .exact import derivative, divmod_, gcd, primitive, rational, square_free
 
 Interval = tuple[Fraction, Fraction]
 

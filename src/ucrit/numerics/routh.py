@@ -9,7 +9,7 @@ from itertools import pairwise
 from numbers import Real
 from typing import Any
 
-from ucrit.numerics.exact import rational
+from .exact import rational
 
 Row = tuple[Any, ...]
 

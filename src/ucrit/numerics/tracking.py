@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ucrit.numerics.sweep import Sweep
+from .links import Links
 
 Index = NDArray[np.intp]
 Family = Callable[[NDArray[np.float64]], tuple[ArrayLike, ArrayLike | None]]
@@ -71,7 +71,7 @@ def track(values: ArrayLike, vectors: ArrayLike | None = None, parameter: ArrayL
            [1.5, 6. , 9. ],
            [2. , 7. , 9. ]])
     """
-    sweep = Sweep.unlinked(values, vectors, parameter)
+    sweep = Links.unlinked(values, vectors, parameter)
     sweep.link_all(np.arange(len(sweep.links)))
     given = None if vectors is None else np.asarray(vectors)
     return Tracked(np.asarray(values, dtype=complex), given, sweep.permutation())
@@ -99,7 +99,7 @@ def refine_where(
     >>> refine_where(values, track(values).permutation)
     array([False,  True, False])
     """
-    sweep = Sweep.unlinked(values, vectors, parameter)
+    sweep = Links.unlinked(values, vectors, parameter)
     order = np.asarray(perm)
     if order.shape != sweep.values.shape or (np.sort(order, axis=1) != np.arange(order.shape[1])).any():
         raise ValueError(f"permutation of shape {order.shape}: it must be a permutation of each row of the eigenvalues")
@@ -142,7 +142,7 @@ def track_adaptive(function: Family, parameter_values: ArrayLike, max_depth: int
     """
     where = np.asarray(parameter_values, dtype=float)
     values, vectors = function(where)
-    sweep = Sweep.unlinked(values, vectors, where)
+    sweep = Links.unlinked(values, vectors, where)
     steps = np.arange(len(sweep.links))
     sweep.link_all(steps)
     steps = steps[sweep.doubtful(steps)]
@@ -157,7 +157,7 @@ def track_adaptive(function: Family, parameter_values: ArrayLike, max_depth: int
     return Tracked(np.asarray(values, dtype=complex), given, sweep.permutation())
 
 
-def _refined(sweep: Sweep, steps: Index, function: Family, max_depth: int, count: int) -> Index:
+def _refined(sweep: Links, steps: Index, function: Family, max_depth: int, count: int) -> Index:
     """The permutation at the rows of `sweep` after points were inserted into the steps in doubt."""
     asked = np.arange(len(sweep.values))
     inserted = 0

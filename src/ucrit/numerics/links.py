@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ucrit.numerics.assignment import assign
+from .assignment import assign
 
 Complex = NDArray[np.complex128]
 Float = NDArray[np.float64]
@@ -27,7 +27,7 @@ _DOUBTFUL = 0.25  # cost of an assignment over the cost with two branches exchan
 
 
 @dataclass(eq=False)
-class Sweep:
+class Links:
     """A sweep being tracked: value i of row k continues as value ``links[k, i]`` of row k + 1."""
 
     values: Complex
@@ -48,7 +48,7 @@ class Sweep:
         self.values, self.vectors = self._scaled(self.values, self.vectors)
 
     @classmethod
-    def unlinked(cls, values: ArrayLike, vectors: ArrayLike | None, parameter: ArrayLike | None) -> "Sweep":
+    def unlinked(cls, values: ArrayLike, vectors: ArrayLike | None, parameter: ArrayLike | None) -> "Links":
         """A sweep from any array-likes, with identity links; equally spaced by default."""
         rows = np.asarray(values, dtype=complex)
         count = len(rows) if rows.ndim else 0
@@ -56,7 +56,7 @@ class Sweep:
         links = np.tile(np.arange(rows.shape[-1] if rows.ndim else 0), (max(count - 1, 0), 1))
         return cls(rows, None if vectors is None else np.asarray(vectors), where.astype(float), links)
 
-    def restricted(self, rows: Index) -> "Sweep":
+    def restricted(self, rows: Index) -> "Links":
         """The sweep at the listed rows only, the links composed over what lies between them."""
         part = copy(self)
         order = self.permutation()[rows]
