@@ -8,28 +8,39 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.analyze import analyze as analyze
+    from .analyses.approximation import approximation as approximation
     from .analyses.compare import compare as compare
     from .analyses.convert import to_control as to_control
     from .analyses.convert import to_scipy as to_scipy
     from .analyses.criteria import criteria as criteria
     from .analyses.critical import critical as critical
+    from .analyses.forms import Descriptor as Descriptor
+    from .analyses.forms import NthOrder as NthOrder
+    from .analyses.forms import SecondOrder as SecondOrder
+    from .analyses.forms import StateSpace as StateSpace
+    from .analyses.forms import forms as forms
     from .analyses.limits import limit as limit
     from .analyses.listing import listing as list  # noqa: F401
     from .analyses.listing import template as new  # noqa: F401
     from .analyses.locus import locus as locus
     from .analyses.modes import modes as modes
+    from .analyses.pitching import moment_line as moment_line
+    from .analyses.pitching import static_margin as static_margin
     from .analyses.remedies import remedies as remedies
     from .analyses.response import frequency_response as frequency_response
     from .analyses.response import impulse_response as impulse_response
     from .analyses.response import step_response as step_response
+    from .analyses.routh import routh as routh
     from .analyses.sensitivity import sensitivity as sensitivity
     from .analyses.show import show as show
+    from .analyses.simulate import simulate as simulate
     from .analyses.stability_map import stability_map as stability_map
     from .analyses.static import static_stability as static_stability
     from .analyses.steady import axle_loads as axle_loads
     from .analyses.steady import steady_turn as steady_turn
     from .analyses.sweep import sweep as sweep
     from .analyses.transfer import transfer as transfer
+    from .analyses.trim import trim as trim
     from .analyses.verdict import verdict as verdict
     from .catalogue import find_model as find_model
     from .catalogue import load as load
@@ -75,15 +86,26 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "to_control": "analyses.convert",
     "to_scipy": "analyses.convert",
     "verdict": "analyses.verdict",
+    "approximation": "analyses.approximation",
     "axle_loads": "analyses.steady",
     "compare": "analyses.compare",
     "frequency_response": "analyses.response",
     "impulse_response": "analyses.response",
     "step_response": "analyses.response",
+    "Descriptor": "analyses.forms",
+    "NthOrder": "analyses.forms",
+    "SecondOrder": "analyses.forms",
+    "StateSpace": "analyses.forms",
+    "forms": "analyses.forms",
     "limit": "analyses.limits",
+    "moment_line": "analyses.pitching",
+    "static_margin": "analyses.pitching",
+    "routh": "analyses.routh",
+    "simulate": "analyses.simulate",
     "static_stability": "analyses.static",
     "steady_turn": "analyses.steady",
     "transfer": "analyses.transfer",
+    "trim": "analyses.trim",
     "show": "analyses.show",
     "list": ("analyses.listing", "listing"),
     "new": ("analyses.listing", "template"),

@@ -81,7 +81,9 @@ def test_kinematic_wheelset_has_the_literatures_wavelength():
     assert not wavelength.has(Omega)
 
 
-@pytest.mark.parametrize("name", [n for n in vehicle_names() if n not in ("coach-truck", "car-and-caravan")])
+@pytest.mark.parametrize(
+    "name", [n for n in vehicle_names() if n not in ("coach-truck", "car-and-caravan", "marble-on-the-flat")]
+)
 def test_criteria_agree_with_eigenvalues(name):
     vehicle = load(name)
     model = type(vehicle)
@@ -98,6 +100,9 @@ def test_criteria_agree_with_eigenvalues(name):
     else:
         predicted = np.all([np.broadcast_to(c.value(many) > 0, 400) for c in found], axis=0)
     values = np.linalg.eigvals(state_space(many).A)
+    if found.zeros == values.shape[-1]:
+        assert (found.kind, found.settled) == ("neutral", True)
+        return
     size = np.abs(values).max(axis=-1)
     values = np.take_along_axis(values, np.argsort(np.abs(values), axis=-1)[:, found.zeros :], axis=-1)
     growth = values.real.max(axis=-1) / size

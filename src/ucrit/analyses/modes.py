@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -141,7 +141,7 @@ class Modes(Tabular):
         values = np.array([v if "'" not in label else 0 for v, label in pairs])
         return np.asarray(self.vectors[:, k] / values[np.argmax(abs(values))])
 
-    def _motions(self, kept: list[int]) -> list[str]:
+    def _motions(self, kept: Sequence[int]) -> tuple[str, ...]:
         """Return the motion that each of the kept modes is named after.
 
         It is that of the variable that takes part most. A model whose variables name as many motions as it has modes
@@ -154,8 +154,9 @@ class Modes(Tabular):
             rows.setdefault(motion, []).append(i)
         if getattr(type(self.vehicle), "one_mode_each", False) and len(rows) == len(kept):
             shares = np.array([[self.participation[own, k].sum() for own in rows.values()] for k in kept])
-            return [list(rows)[i] for i in assign(1 - shares[None])[0]]
-        return [self._motion(self._most(k)) for k in kept]
+            names = tuple(rows)
+            return tuple(names[i] for i in assign(1 - shares[None])[0])
+        return tuple(self._motion(self._most(k)) for k in kept)
 
     def _most(self, k: int) -> str:
         """Return the variable that takes part most in a mode, its rates included."""

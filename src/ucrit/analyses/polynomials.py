@@ -64,19 +64,35 @@ def factored_in_s(polynomial: Any, functions: Mapping[Any, Any]) -> Texts:
             constant *= product(coefficients[0], functions) ** multiplicity
         else:
             terms = [product(c, functions) for c in coefficients]
+            if _negative(terms[-1]):
+                terms, constant = [-t for t in terms], constant * (-1) ** multiplicity
             pieces.append((in_s(terms), multiplicity, sum(bool(t) for t in terms) > 1))
     if not pieces:
         return in_s([constant])
     if constant == 1 and len(pieces) == 1 and pieces[0][1] == 1:
         return pieces[0][0]
-    head = in_s([constant])
-    result = {key: "" if constant == 1 else "-" if constant == -1 else head[key] for key in head}
+    sign, size = ("-", -constant) if _negative(constant) else ("", constant)
+    head = in_s([size])
+    if size.is_Add:
+        head = {"text": f"({head['text']})", "latex": rf"\left({head['latex']}\right)", "mathml": _bracketed(head)}
+    signs = {"text": sign, "latex": sign, "mathml": sign and "<mo>-</mo>"}
+    result = {key: signs[key] + ("" if size == 1 else head[key]) for key in head}
     for texts, m, several in pieces:
         body = f"({texts['text']})" if several else texts["text"]
         result["text"] += ("*" if result["text"] not in ("", "-") else "") + body + (f"**{m}" if m > 1 else "")
         inner = rf"\left({texts['latex']}\right)" if several else texts["latex"]
         result["latex"] += " " + inner + (f"^{{{m}}}" if m > 1 else "")
-        row = f"<mrow><mo>(</mo>{texts['mathml']}<mo>)</mo></mrow>" if several else texts["mathml"]
+        row = _bracketed(texts) if several else texts["mathml"]
         result["mathml"] += f"<msup>{row}<mn>{m}</mn></msup>" if m > 1 else row
     result["mathml"] = f"<mrow>{result['mathml']}</mrow>"
     return result
+
+
+def _negative(expression: Any) -> bool:
+    """Tell whether every term of an expression has a minus sign."""
+    terms = expression.args if expression.is_Add else (expression,)
+    return all(term.could_extract_minus_sign() for term in terms)
+
+
+def _bracketed(texts: Texts) -> str:
+    return f"<mrow><mo>(</mo>{texts['mathml']}<mo>)</mo></mrow>"

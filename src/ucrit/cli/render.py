@@ -1,18 +1,14 @@
-"""An analysis as text for a terminal; all that is computed here is how numbers are rounded."""
+"""An analysis as text for a terminal."""
 
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
-import numpy as np
-
-from ..analyses.remedies import SPEEDS, Remedy
+from ..analyses.advice import advice
 from ..analyses.wording import speed_text
-from ..core.compiled import deciding_coefficients
-from ..numerics.hurwitz import stable
 from .terminal import Page, vehicle_head
-from .wrap import DIGITS, decimal_text, number, rounded, shorten
+from .wrap import number, shorten
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -20,6 +16,7 @@ if TYPE_CHECKING:
     from ..analyses.analyze import Analysis
     from ..analyses.critical import Critical
     from ..analyses.modes import Mode
+    from ..analyses.remedies import Remedy
 
 CLOSED_FORM_LINES = 6
 CRITERION_LINES = 16
@@ -166,35 +163,12 @@ def _remedies(page: Page, found: Analysis) -> None:
 
 
 def _remedy_cells(remedy: Remedy, found: Analysis) -> list[str]:
-    assert remedy.value is not None
-    word = "at least" if remedy.value > remedy.present else "at most"
-    text = safe_value(remedy, found)
+    told = advice(remedy, found)
     unit = "" if remedy.unit == "1" else remedy.unit
-    change = _percent((float(text) - remedy.present) / abs(remedy.present)) if remedy.present else ""
-    return [remedy.parameter, word, text, unit, f"instead of {number(remedy.present, 6)}", change]
+    change = "" if told.relative is None else _percent(told.relative)
+    return [remedy.parameter, told.word, told.text, unit, f"instead of {number(remedy.present, 6)}", change]
 
 
 def _percent(share: float) -> str:
     digits = 2 if abs(share) < 0.95 or share > 1 else 4  # -99.8 % is not -100 %
     return f"{'+' if share > 0 else ''}{number(100 * share, digits)} %"
-
-
-def safe_value(remedy: Remedy, found: Analysis) -> str:
-    """Return a remedy's value with as few digits, from four on, as still make the vehicle stable."""
-    assert remedy.value is not None
-    sense = 1 if remedy.value > remedy.present else -1
-    parameter = type(found.vehicle).declaration.parameters[remedy.parameter]
-    for digits in range(DIGITS, 16):
-        value = rounded(remedy.value, digits, sense)
-        if parameter.allows(float(value)) and _helps(found, remedy.parameter, float(value)):
-            return decimal_text(value)
-    return repr(remedy.value)
-
-
-def _helps(found: Analysis, parameter: str, value: float) -> bool:
-    """Tell whether a value, rounded away from the boundary, is still within the stable range of it."""
-    changes: dict[str, Any] = {parameter: value}
-    name = type(found.vehicle).declaration.speed
-    if name is not None and found.speed is not None:
-        changes[name] = found.speed * np.linspace(0, 1, SPEEDS + 1)[1:]
-    return bool(np.all(stable(deciding_coefficients(found.vehicle.with_(**changes)))))

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
 
-DIGITS = 4
+from ..analyses.advice import DIGITS, decimal_text, rounded
+
 STEP = 2
 """Columns by which a line is indented for each bracket that is open where it starts."""
 
@@ -65,26 +65,4 @@ def number(value: float, digits: int = DIGITS) -> str:
     """
     if not math.isfinite(value):
         return f"{value:g}"
-    return _plain(rounded(value, digits, 0))
-
-
-def rounded(value: float, digits: int, sense: int) -> Decimal:
-    """Round to significant digits: up for a positive sense, down for a negative one, to nearest for 0."""
-    exact = Decimal(value)
-    if not exact:
-        return Decimal(0)
-    place = Decimal(1).scaleb(exact.adjusted() - digits + 1)
-    how = {1: ROUND_CEILING, -1: ROUND_FLOOR, 0: ROUND_HALF_EVEN}[sense]
-    return (exact / place).to_integral_value(how) * place
-
-
-def _plain(value: Decimal) -> str:
-    if value and not -5 <= value.adjusted() <= 6:
-        return f"{value.normalize():e}".replace("E", "e")
-    text = f"{value:f}"
-    return text.rstrip("0").rstrip(".") if "." in text else text
-
-
-def decimal_text(value: Decimal) -> str:
-    """Return a rounded number as text that reads back as the same number."""
-    return _plain(value)
+    return decimal_text(rounded(value, digits, 0))

@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from ..core.errors import UcritError
+
 if TYPE_CHECKING:
     from ..analyses.critical import Critical, CriticalValues
     from ..analyses.locus import Locus
@@ -48,6 +50,8 @@ def upper(locus: Locus) -> list[Branch]:
             continue
         shown = name.removesuffix(", conjugate")
         found.append(Branch(numbers.setdefault(shown, len(numbers)), shown, values))
+    if not found:
+        raise UcritError(f"there is no locus to draw: every root is zero, whatever {locus.parameter} is")
     return found
 
 

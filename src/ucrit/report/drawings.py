@@ -36,6 +36,8 @@ def along(analysis: Analysis) -> tuple[Locus, CriticalValues] | None:
 
     vehicle = analysis.vehicle
     name = type(vehicle).declaration.speed
+    if all(mode.eigenvalue == 0 for mode in analysis.modes):
+        return None  # nothing but rigid positions, which stay where they are
     if name is not None:
         return locus(vehicle, points=LOCUS_POINTS), analysis.critical or critical(vehicle)
     helpful = [r.parameter for r in analysis.remedies if r.value is not None]

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from ..analyses.advice import advice
 from ..analyses.wording import speed_text
 from ..plots.labels import NOTHING, fixed, number, percent, unit_text
 from . import formulas
@@ -14,7 +15,6 @@ if TYPE_CHECKING:
     from ..analyses.analyze import Analysis
     from ..analyses.critical import Critical
     from ..analyses.modes import Mode
-    from ..analyses.remedies import Remedy
     from ..core.model import Model
 
 KINDS = {
@@ -116,39 +116,25 @@ def critical(found: tuple[Critical, ...]) -> list[dict[str, Any]]:
     return rows
 
 
-def remedies(found: tuple[Remedy, ...]) -> list[dict[str, Any]]:
+def remedies(analysis: Analysis) -> list[dict[str, Any]]:
     """Return the remedies that help, each with the value to reach, rounded to the safe side."""
     rows = []
-    for r in found:
+    for r in analysis.remedies:
         if r.value is None:
             continue
-        rising = r.value > r.present
+        told = advice(r, analysis)
         rows.append(
             {
                 "symbol": formulas.symbol(r.parameter),
                 "meaning": r.meaning,
                 "present": number(r.present, 6),
-                "word": "at least" if rising else "at most",
-                "value": number(rounded(r.value, up=rising), 6),
+                "word": told.word,
+                "value": told.text,
                 "unit": unit_text(r.unit),
-                "change": percent(r.relative),
+                "change": percent(math.inf if told.relative is None else told.relative),
             }
         )
     return rows
-
-
-def rounded(value: float, *, up: bool, digits: int = 5) -> float:
-    """Round to so many significant digits in one direction, so that the shown value still suffices.
-
-    >>> rounded(3.8018080, up=True), rounded(2174.854, up=False)
-    (3.8019, 2174.8)
-    """
-    if not value:
-        return value
-    step = digits - 1 - math.floor(math.log10(abs(value)))
-    scaled = value * 10.0**step
-    whole = math.ceil(scaled) if up else math.floor(scaled)
-    return whole / 10**step if step > 0 else float(whole * 10**-step)
 
 
 def criteria(analysis: Analysis) -> list[dict[str, Any]]:

@@ -119,7 +119,7 @@ def _tables(analysis: Analysis) -> dict[str, Any]:
         "parameters": tables.parameters(analysis.vehicle),
         "critical": critical,
         "modes": tables.modes(analysis.modes),
-        "remedies": tables.remedies(analysis.remedies),
+        "remedies": tables.remedies(analysis),
         "helpless": [formulas.symbol(r.parameter) for r in analysis.remedies if r.value is None],
         "criteria": tables.criteria(analysis),
         "steps": derivation.steps(described),

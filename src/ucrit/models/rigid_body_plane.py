@@ -1,0 +1,16 @@
+"""Axes: x forward, y to the right, z down, through the centre of mass and fixed to the body. SI units and radians.
+
+A plane holds heave, roll and pitch at zero, with a force and two moments that do no work.
+"""
+
+from .rigid_body_symmetric import RigidBodySymmetric
+
+
+class RigidBodyPlane(RigidBodySymmetric):
+    """Rigid body in plane motion, such as a car on the road (Karnopp 2004, problem 2.3)."""
+
+    W = p = q = 0
+    Z = L = M = 0
+    I_xx = I_yy = I_xz = 0
+
+    even = ("U", "X")
