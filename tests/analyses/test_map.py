@@ -8,8 +8,10 @@ from hypothesis import strategies as st
 from ucrit import UcritError, find_model, load
 from ucrit.analyses import stability_map as module
 from ucrit.analyses.modes import eigenvalues
+from ucrit.analyses.modes import growth as growth_of
 from ucrit.analyses.stability_map import stability_map
 from ucrit.catalogue import vehicle_names
+from ucrit.core.compiled import compiled
 
 UNDAMPED = {"m": 1000, "a": 1.5, "I_c": 1800, "U": 25, "C": 5e4, "b": 1, "k": 1e4}
 
@@ -45,10 +47,13 @@ def test_maps_of_all_vehicles_agree_with_eigenvalues(name):
     if list(swept.dims) != list(result.dims):
         values = values.swapaxes(0, 1)
     size = np.abs(values).max(axis=-1)
-    growth = np.where(values == 0, -np.inf, values.real).max(axis=-1)
+    growth = growth_of(swept, values)
     sure = np.abs(growth) > 1e-9 * size
     np.testing.assert_array_equal(result.stable[sure], growth[sure] < 0)
-    assert sure.mean() > 0.95 or result.stable[~sure].all() or not result.stable[~sure].any()
+    if compiled(type(vehicle)).undamped:
+        assert result.stable[~sure].mean() > 0.9  # neutral counts as stable, but for the points on a boundary
+    else:
+        assert sure.mean() > 0.95 or result.stable[~sure].all() or not result.stable[~sure].any()
 
 
 @settings(max_examples=25)

@@ -15,7 +15,7 @@ from ..core.model import Model
 from ..numerics.tracking import track_adaptive
 from .convert import Series, Table, Tabular, complex_series, unit_of
 from .critical import critical, parameter_name
-from .modes import eigensystem, eigenvalues, modes
+from .modes import eigensystem, eigenvalues, growth, modes
 
 Array = npt.NDArray[Any]
 
@@ -64,7 +64,7 @@ class Locus(Tabular):
     @property
     def growth(self) -> Array:
         """Largest real part [1/s] at each value but for rigid positions, shape (S,)."""
-        return np.asarray(np.where(self.branches == 0, -np.inf, self.branches.real).max(axis=1))
+        return growth(self.vehicle, self.branches)
 
     def table(self) -> Table:
         """Return the branches, by name, with real and imaginary part."""

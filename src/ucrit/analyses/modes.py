@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..core.compiled import labels, state_space
+from ..core.compiled import compiled, direction, labels, state_space
 from ..core.errors import UcritError
 from ..core.model import Model
 from ..numerics.assignment import assign
@@ -179,7 +179,7 @@ class Modes(Tabular):
     @property
     def growth(self) -> Array:
         """Largest real part [1/s] over all modes but rigid positions, of shape (...)."""
-        return np.asarray(np.where(self.eigenvalues == 0, -np.inf, self.eigenvalues.real).max(axis=-1))
+        return growth(self.vehicle, self.eigenvalues)
 
     def __str__(self) -> str:
         return "\n".join(
@@ -250,17 +250,21 @@ def _order(values: Array) -> Array:
     return np.lexsort((-values.imag, np.abs(values.imag), -real), axis=-1)
 
 
-def _with_exact_zeros(vehicle: Model, values: Array) -> Array:
-    """Set the structural zeros, the smallest of the eigenvalues, to zero."""
-    from ..core.compiled import compiled, direction
-
+def rigid_positions(vehicle: Model, values: Array) -> Array:
+    """Tell which eigenvalues (..., n) are zero whatever the parameters: as many of the smallest as there are."""
     count = compiled(type(vehicle), direction(vehicle)).structural_zeros
-    if not count:
-        return values
-    smallest = np.argsort(np.abs(values), axis=-1)[..., :count]
-    cleared = values.copy()
-    np.put_along_axis(cleared, smallest, 0, axis=-1)
-    return cleared
+    rank = np.argsort(np.argsort(np.abs(values), axis=-1, kind="stable"), axis=-1, kind="stable")
+    return np.asarray(rank < count)
+
+
+def growth(vehicle: Model, values: Array) -> Array:
+    """Return the largest real part [1/s] of eigenvalues (..., n) but for rigid positions, ``-inf`` if none is left."""
+    return np.asarray(np.where(rigid_positions(vehicle, values), -np.inf, values.real).max(axis=-1))
+
+
+def _with_exact_zeros(vehicle: Model, values: Array) -> Array:
+    """Set the structural zeros to zero."""
+    return np.where(rigid_positions(vehicle, values), 0, values)
 
 
 def _participation(vectors: Array) -> Array:

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..core.model import Model
-from .modes import eigenvalues
+from .modes import eigenvalues, growth, rigid_positions
 
 POINTS = 2001
 """Points at which stability is sampled; two changes closer together than a step of these can be missed."""
@@ -27,11 +27,11 @@ def scan(vehicle: Model, name: str, lo: float, hi: float) -> Any:
     the last digit; their accuracy is that of the eigenvalues, about 1e-12 relative where the crossing is transverse.
     """
     grid = _grid(vehicle, name, lo, hi)
-    growth = _growth(vehicle, name, grid)
-    unstable = growth > AXIS
+    rates = _growth(vehicle, name, grid)
+    unstable = rates > AXIS
     changes = np.flatnonzero(unstable[1:] != unstable[:-1])
     left, right, was = grid[changes], grid[changes + 1], unstable[changes]
-    stable_side = np.where(was, growth[changes + 1], growth[changes])
+    stable_side = np.where(was, rates[changes + 1], rates[changes])
     threshold = np.where(stable_side < -AXIS, 0.0, AXIS)  # a motion that decays crosses at exactly zero
     for _ in range(60):
         middle = (left + right) / 2
@@ -60,11 +60,10 @@ def _growth(vehicle: Model, name: str, values: Array) -> Array:
         return np.zeros(0)
     allowed = type(vehicle).declaration.parameters[name].allows(values)
     found = eigenvalues(vehicle.with_(**{name: np.where(allowed, values, vehicle.values[name])}))
-    real = np.where(found == 0, -np.inf, found.real).max(axis=-1)
-    return np.asarray(real / np.abs(found).max(axis=-1))
+    return np.asarray(growth(vehicle, found) / np.abs(found).max(axis=-1))
 
 
 def _kind(vehicle: Model, name: str, value: float) -> set[str]:
     found = eigenvalues(vehicle.with_(**{name: value}))
-    nearest = found[np.argmin(np.where(found == 0, np.inf, np.abs(found.real)))]
+    nearest = found[np.argmin(np.where(rigid_positions(vehicle, found), np.inf, np.abs(found.real)))]
     return {"flutter" if abs(nearest.imag) > AXIS * np.abs(found).max() else "divergence"}

@@ -16,7 +16,7 @@ from ..core.compiled import compiled, direction, labels, state_slopes, state_spa
 from ..core.model import Model
 from .convert import Series, Table, Tabular, complex_series, unit_of
 from .critical import Critical, critical
-from .modes import eigensystem, modes
+from .modes import eigensystem, modes, rigid_positions
 
 Array = npt.NDArray[Any]
 
@@ -123,7 +123,7 @@ def sensitivity(vehicle: Model) -> Sensitivity:
     (True, True)
     """
     values, slopes = _slopes(vehicle)
-    worst = np.argmax(np.where(values == 0, -np.inf, values.real), axis=-1)[..., None]
+    worst = np.argmax(np.where(rigid_positions(vehicle, values), -np.inf, values.real), axis=-1)[..., None]
     growth = {name: np.take_along_axis(slope.real, worst, axis=-1)[..., 0] for name, slope in slopes.items()}
     scalar = not vehicle.dims
     names = modes(vehicle).names if scalar else tuple(map(str, range(1, len(labels(vehicle)) + 1)))
@@ -138,9 +138,7 @@ def _slopes(vehicle: Model) -> tuple[Array, dict[str, Array]]:
     values, right = eigensystem(vehicle)
     A = state_space(vehicle).A
     left, sure = _left(A, values, right)
-    rigid = np.zeros(values.shape, dtype=bool)
-    if compiled(type(vehicle), direction(vehicle)).structural_zeros:
-        rigid = values == 0
+    rigid = rigid_positions(vehicle, values)
     slopes = {}
     for name, dA in state_slopes(vehicle).items():
         slope = np.einsum("...ki,...ij,...jk->...k", left, dA, right)

@@ -123,11 +123,12 @@ def simulate(
     if not SMALLEST <= tolerance <= LARGEST:
         raise UcritError(f"tolerance must be within {SMALLEST:g} and {LARGEST:g}, got {tolerance!r}")
     made, arguments = motion(type(vehicle)), vehicle.arguments()
-    at = _times(times, _value(until, "s", f"{type(vehicle).model_id()}: time until"))
+    last = _value(until, "s", f"{type(vehicle).model_id()}: time until")
+    at = _times(times, last)
     basic, steady = made.basic(arguments)
     start, drive = _start(vehicle, made, basic, initial or {}), _drive(vehicle, steady, inputs or {})
     _refuse_broken_constraints(vehicle, start, drive(0.0))
-    values = _followed(vehicle, start, drive, at, tolerance)
+    values = _followed(vehicle, start, drive, last, at, tolerance)
     driven = np.array([drive(t) for t in at]).reshape(len(at), len(steady)).T
     outputs = made.outputs(values, driven, arguments).reshape(-1, len(at))
     declared = type(vehicle).declaration
@@ -135,11 +136,13 @@ def simulate(
     return Simulation(vehicle, at, *names, values.T, outputs.T, driven.T)
 
 
-def _followed(vehicle: Model, start: Array, drive: Callable[[float], Array], times: Array, tolerance: float) -> Array:
-    """Return the states, one a row, at given times."""
+def _followed(
+    vehicle: Model, start: Array, drive: Callable[[float], Array], last: float, times: Array, tolerance: float
+) -> Array:
+    """Return the states, one a row, at given times of a motion that goes on to the last."""
     from scipy.integrate import solve_ivp
 
-    made, arguments, last = motion(type(vehicle)), vehicle.arguments(), float(times[-1])
+    made, arguments = motion(type(vehicle)), vehicle.arguments()
 
     def rates(t: float, w: Array) -> Array:
         return made.rhs(w, drive(t), arguments)

@@ -15,7 +15,7 @@ from ..core.model import Model
 from ..numerics.hurwitz import right_half_plane
 from ..numerics.hurwitz import stable as hurwitz_stable
 from .convert import Series, Table, Tabular, complex_series, unit_of
-from .modes import eigenvalues
+from .modes import eigenvalues, growth, rigid_positions
 from .ranges import parse_range
 
 Array = npt.NDArray[Any]
@@ -160,13 +160,12 @@ def _evaluate(vehicle: Model) -> tuple[Array, ...]:
     """Eigenvalues, growth, number unstable, stable and least damping, over the dimensions of the vehicle."""
     values = eigenvalues(vehicle)
     shape = values.shape[:-1]
-    rigid = values == 0
-    size = np.where(rigid, 1, np.abs(values))
-    growth = np.where(rigid, -np.inf, values.real).max(axis=-1)
+    rigid = rigid_positions(vehicle, values)
+    size = np.where(values == 0, 1, np.abs(values))
     damping = np.where(rigid, np.inf, -values.real / size).min(axis=-1)
     functions = compiled(type(vehicle), direction(vehicle))
     a = np.stack([np.broadcast_to(x, shape) for x in coefficients(vehicle)[functions.structural_zeros :]], axis=-1)
     if not a[..., -1].all():
         raise UcritError(f"{type(vehicle).model_id()}: the equations are singular for these parameters")
     decided = hurwitz_stable(deciding_coefficients(vehicle)) if a.shape[-1] > 1 else np.ones(shape, dtype=bool)
-    return values, growth, right_half_plane(a), np.broadcast_to(decided, shape), damping
+    return values, growth(vehicle, values), right_half_plane(a), np.broadcast_to(decided, shape), damping
