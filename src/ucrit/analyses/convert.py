@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib
 import json
 import os
+import re
 import tempfile
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -247,7 +248,8 @@ def to_control(vehicle: Model) -> Any:
         "inputs": list(type(vehicle).declaration.inputs),
         "outputs": outputs,
     }
-    return control.ss(A, B, C, D, name=vehicle.info.name or type(vehicle).model_id(), **names)
+    name = re.sub(r"[^A-Za-z0-9_-]+", " ", vehicle.info.name or type(vehicle).model_id()).strip()
+    return control.ss(A, B, C, D, name=name, **names)
 
 
 def to_scipy(vehicle: Model) -> Any:

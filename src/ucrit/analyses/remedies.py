@@ -134,7 +134,8 @@ def _stable(vehicle: Model, speeds: Array | None) -> bool:
 
 
 def _stable_now(vehicle: Model) -> bool:
-    return bool(stable(deciding_coefficients(vehicle)))
+    a = deciding_coefficients(vehicle)
+    return len(a) == 1 or bool(stable(a))  # with rigid positions alone nothing can grow
 
 
 def _remedy(vehicle: Model, key: str, speeds: Array | None) -> Remedy:

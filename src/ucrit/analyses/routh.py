@@ -11,7 +11,6 @@ from html import escape
 from typing import Any
 
 from ..core.errors import UcritError, near_match
-from ..core.expressions import FUNCTIONS, parse
 from ..numerics.routh import RouthArray
 from ..numerics.routh import routh as array_of
 
@@ -139,6 +138,8 @@ def _read(text: str, variable: str, positive: Sequence[str]) -> list[Any]:
     """Return the ascending coefficients of a polynomial in words."""
     import sympy as sp
 
+    from ..core.expressions import FUNCTIONS, parse
+
     tokens = list(_tokens(text))
     names = {token for kind, token in tokens if kind == "name"} - {variable, "pi", *FUNCTIONS}
     symbols = {_safe(name): sp.Symbol(name, real=True, positive=name in positive or None) for name in names}
@@ -171,6 +172,8 @@ def _with_products(tokens: Sequence[tuple[str, str]]) -> str:
     >>> _with_products(list(_tokens("2 s^3 + (a b + 1)s")))
     '2*s**3+(a*b+1)*s'
     """
+    from ..core.expressions import FUNCTIONS
+
     pieces: list[str] = []
     last = ("sign", "")
     for kind, token in tokens:

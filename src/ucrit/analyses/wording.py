@@ -88,7 +88,8 @@ def _position(analysis: Analysis) -> str:
     count = analysis.verdict.rigid_positions
     if not count:
         return ""
-    return f" ({'a zero root' if count == 1 else f'{count} zero roots'}, where it runs on the road, harmless)"
+    roots = "a zero root" if count == 1 else f"{count} zero roots"
+    return f" ({roots}: places and directions that nothing restores, harmless)"
 
 
 def _at_a_point(analysis: Analysis) -> str:
