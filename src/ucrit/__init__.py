@@ -48,12 +48,14 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .checks import check_model as check_model
     from .core import Model as Model
     from .core import ModelError as ModelError
+    from .core import Part as Part
     from .core import UcritError as UcritError
     from .core import algebraic as algebraic
     from .core import coordinate as coordinate
     from .core import input as input
     from .core import output as output
     from .core import param as param
+    from .core import slot as slot
     from .core import speed as speed
     from .core import state as state
     from .plots import plot as plot
@@ -64,12 +66,14 @@ __version__ = "0.1.0"
 _PUBLIC: dict[str, str | tuple[str, str]] = {
     "Model": "core",
     "ModelError": "core",
+    "Part": "core",
     "UcritError": "core",
     "algebraic": "core",
     "coordinate": "core",
     "input": "core",
     "output": "core",
     "param": "core",
+    "slot": "core",
     "speed": "core",
     "state": "core",
     "load": "catalogue",

@@ -5,6 +5,7 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import os
+import pkgutil
 from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
@@ -14,6 +15,7 @@ from typing import Any
 from .core.errors import ModelError, UcritError, near_match
 from .core.files import parse_vehicle, read_text
 from .core.model import Model
+from .core.part import Part
 
 HERE = Path(__file__).resolve().parent
 VEHICLES = HERE / "data" / "vehicles"
@@ -54,6 +56,27 @@ def find_model(name: str, folder: Path | None = None) -> type[Model]:
         raise UcritError(f"there is no model '{name}'{near_match(name, model_names())}")
     module = importlib.import_module(f"ucrit.models.{key.replace('-', '_')}")
     return models_in(module)[0]
+
+
+def part_names(kind: type[Part]) -> tuple[str, ...]:
+    """Names of all laws in the catalogue that are of a kind."""
+    return tuple(sorted(_laws(kind)))
+
+
+def find_part(name: str, kind: type[Part], folder: Path | None = None) -> type[Part]:
+    """Return the law of a name that is of the kind which a slot takes; relative paths start at ``folder``."""
+    laws = _laws(kind)
+    if name not in laws:
+        raise UcritError(f"there is no {kind.__name__.lower()} law '{name}'{near_match(name, laws)}")
+    return laws[name]
+
+
+def _laws(kind: type[Part]) -> dict[str, type[Part]]:
+    """Find the laws of a kind: the module of its base, and the modules beside it in its package."""
+    package = importlib.import_module(kind.__module__.rpartition(".")[0])
+    modules = (importlib.import_module(f"{package.__name__}.{m.name}") for m in pkgutil.iter_modules(package.__path__))
+    found = (value for module in modules for value in vars(module).values() if isinstance(value, type))
+    return {law.part_id(): law for law in found if issubclass(law, kind) and law is not kind}
 
 
 def models_in(module: ModuleType) -> list[type[Model]]:
@@ -133,4 +156,6 @@ def load(vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = No
         path, where = Path(name), name
     else:
         raise UcritError(f"there is no vehicle '{name}'{near_match(name, vehicle_names())}")
-    return parse_vehicle(read_text(path), where, lambda model: find_model(model, path.parent), changes, at_speed)
+    folder = path.parent
+    find = (lambda model: find_model(model, folder)), (lambda law, kind: find_part(law, kind, folder))
+    return parse_vehicle(read_text(path), where, *find, changes, at_speed)

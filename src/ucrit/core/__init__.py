@@ -5,13 +5,15 @@ Knows no vehicle and no analysis.
 
 from .declare import algebraic, coordinate, input, output, param, speed, state
 from .errors import MissingExtraError, ModelError, UcritError
-from .functions import asin, atan, atan2, cos, exp, log, sign, sin, sqrt, tan, tanh
+from .functions import asin, atan, atan2, cos, exp, log, maximum, minimum, sign, sin, sqrt, tan, tanh, where
 from .model import Model
+from .part import Part, slot
 
 __all__ = [
     "MissingExtraError",
     "Model",
     "ModelError",
+    "Part",
     "UcritError",
     "algebraic",
     "asin",
@@ -22,13 +24,17 @@ __all__ = [
     "exp",
     "input",
     "log",
+    "maximum",
+    "minimum",
     "output",
     "param",
     "sign",
     "sin",
+    "slot",
     "speed",
     "sqrt",
     "state",
     "tan",
     "tanh",
+    "where",
 ]

@@ -5,6 +5,8 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
+import sympy as sp
+
 from .codegen import generate
 from .linear import LinearSystem, linear_system
 from .model import Model
@@ -70,3 +72,29 @@ def motion_facts(model: type[Model]) -> dict[str, Any]:
         "outputs": generate("outputs", [traced.states, traced.highest, traced.u, parameters], traced.outputs),
         "basic": generate("basic", [parameters], [traced.basic.get(s, 0) for s in (*traced.states, *traced.u)]),
     }
+
+
+def motion_slope_facts(model: type[Model]) -> dict[str, Any]:
+    """Derive how the residuals ``M z - f`` of the non-linear equations change with states, inputs and parameters."""
+    traced = trace(model, direction=None)
+    solved, z = solve_for_highest(traced), sp.Matrix(traced.highest)
+    parameters = list(traced.parameters.values())
+    residuals = solved.M * z - solved.f
+    groups = traced.states, traced.highest, traced.u, parameters
+    by = {"residual": (*traced.states, *traced.u, *parameters), "output": (*groups[0], *groups[1], *groups[2])}
+    return {
+        name: _sparse(name, groups, expressions, variables)
+        for (name, variables), expressions in zip(by.items(), (residuals, traced.outputs), strict=True)
+    }
+
+
+def _sparse(name: str, groups: Any, expressions: Any, variables: Any) -> dict[str, Any]:
+    """Return places and source of the slopes that are not zero."""
+    places, slopes = [], []
+    for i, expression in enumerate(expressions):
+        for j, variable in enumerate(variables):
+            slope = expression.diff(variable).replace(sp.DiracDelta, lambda *_: sp.S.Zero)
+            if slope != 0:
+                places.append((i, j))
+                slopes.append(slope)
+    return {"places": places, "source": generate(name, groups, slopes)}

@@ -44,6 +44,10 @@ def _dimension(expression: Any, known: dict[Any, Dimension], where: str) -> Dime
         return known[expression]
     if expression.is_number:
         return NUMBER
+    if isinstance(expression, sp.Piecewise):
+        for relation in sp.And(*(condition for _, condition in expression.args)).atoms(sp.core.relational.Relational):
+            _alike(relation, [_dimension(side, known, where) for side in relation.args], where)
+        return _alike(expression, [_dimension(value, known, where) for value, _ in expression.args], where)
     parts = [_dimension(argument, known, where) for argument in expression.args]
     if expression.is_Mul:
         total = NUMBER
@@ -58,8 +62,8 @@ def _dimension(expression: Any, known: dict[Any, Dimension], where: str) -> Dime
         return _alike(expression, parts, where)
     if isinstance(expression, sp.Abs):
         return parts[0]
-    if isinstance(expression, sp.Piecewise | sp.sign):
-        return NUMBER if isinstance(expression, sp.sign) else _alike(expression, parts, where)
+    if isinstance(expression, sp.sign):
+        return NUMBER
     for argument, part in zip(expression.args, parts, strict=True):
         if part not in (None, NUMBER):
             raise ModelError(f"{where}: '{expression}' is a function of '{argument}', which has the unit {part}")

@@ -20,9 +20,10 @@ from typing import Any
 
 from .errors import UcritError, near_match
 from .model import Model
+from .part import Part
 
 TEXTS = ("name", "source", "note")
-KEYS = ("model", *TEXTS, "parameters")
+KEYS = ("model", *TEXTS, "parts", "parameters")
 
 
 def read_text(path: Path) -> str:
@@ -43,6 +44,7 @@ def parse_vehicle(
     text: str,
     where: str,
     find_model: Callable[[str], type[Model]],
+    find_part: Callable[[str, type[Part]], type[Part]],
     changes: Mapping[str, Any] | None = None,
     at_speed: Any = None,
 ) -> Model:
@@ -56,6 +58,8 @@ def parse_vehicle(
         The file's name, for messages.
     find_model
         Gives the model class of a name.
+    find_part
+        Gives the law of a name, of the kind that a slot takes.
     changes
         Parameter values that replace or complete the file's.
     at_speed
@@ -81,11 +85,25 @@ def parse_vehicle(
         raise UcritError(f'{where}: a vehicle file needs model = "..." and a [parameters] table')
     try:
         model = find_model(content["model"])
+        model = model.fitted(**_laws(model, content.get("parts", {}), find_part))
         vehicle = model(**{**parameters, **(changes or {}), **_speed(model, at_speed)})
     except UcritError as error:
         raise type(error)(f"{where}: {error}") from None
     texts = {key: content[key] for key in TEXTS if key in content}
     return vehicle.with_info(**{"name": Path(where).stem, **texts, "file": where})
+
+
+def _laws(model: type[Model], parts: Any, find_part: Callable[[str, type[Part]], type[Part]]) -> dict[str, type[Part]]:
+    """Return the laws that a file's [parts] table puts into the model's slots."""
+    slots = model.declaration.slots
+    if not isinstance(parts, dict):
+        raise UcritError(f"parts must be a table, got {parts!r}")
+    for name, law in parts.items():
+        if name not in slots:
+            raise UcritError(f"{model.model_id()}: there is no slot '{name}' for a part{near_match(name, slots)}")
+        if not isinstance(law, str):
+            raise UcritError(f"{model.model_id()}: part {name} must be the name of a law in quotes, got {law!r}")
+    return {name: find_part(law, slots[name].kind) for name, law in parts.items()}
 
 
 def _speed(model: type[Model], value: Any) -> dict[str, Any]:
@@ -115,6 +133,9 @@ def vehicle_template(model: type[Model], name: str | None = None, vehicle: Model
     ]
     if info and info.note:
         lines.append(f"note = {_quoted(info.note)}")
+    if model.declaration.slots:
+        fitted = {key: slot.law.part_id() for key, slot in model.declaration.slots.items()}
+        lines += ["", "[parts]", *(f"{key} = {_quoted(law)}" for key, law in fitted.items())]
     lines += ["", '[parameters]   # a number is in the SI unit shown; a text carries its own: "110 km/h"']
     for key, parameter in model.declaration.parameters.items():
         comment = f"{parameter.meaning} [{parameter.unit}], {parameter.allowed}"

@@ -18,6 +18,7 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cache
 from types import MappingProxyType
 from typing import Any, Self, dataclass_transform
 
@@ -25,6 +26,7 @@ import numpy as np
 
 from .declare import Input, Output, Parameter, Quantity, Variable, param, speed
 from .errors import ModelError, UcritError, near_match
+from .part import Constant, Part, Slot, recipe
 
 ARGUMENTS = {
     "equations": ("x", "dx", "ddx", "u"),
@@ -61,6 +63,7 @@ class Declaration:
     variables: Mapping[str, Variable]
     inputs: Mapping[str, Input]
     outputs: Mapping[str, Output]
+    slots: Mapping[str, Slot] = field(default_factory=dict)
 
     @property
     def speed(self) -> str | None:
@@ -90,6 +93,8 @@ class Model:
     info: Info = Info()
     _values: Mapping[str, float | np.ndarray[Any, Any]]
     _shared: Mapping[str, str]
+    _unfitted: type[Model] | None = None
+    _laws: Mapping[str, type[Part]] = MappingProxyType({})
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
@@ -125,7 +130,8 @@ class Model:
         raise AttributeError(f"a vehicle does not change: use with_({name}=...) to get a changed copy")
 
     def __reduce__(self) -> Any:
-        return _restore, (type(self), dict(self._values), dict(self._shared), self.info)
+        laws = {name: recipe(law) for name, law in self._laws.items()}
+        return _restore, (self._unfitted or type(self), laws, dict(self._values), dict(self._shared), self.info)
 
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):
@@ -142,6 +148,31 @@ class Model:
         """Name of the model as users type it: the file's name in the catalogue, the class's name elsewhere."""
         package, _, stem = cls.__module__.rpartition(".")
         return stem.replace("_", "-") if package == "ucrit.models" else cls.__name__
+
+    @classmethod
+    def fitted(cls, **laws: type[Part]) -> type[Self]:
+        """Return this model with other force laws in its slots, whose parameters replace those of the former laws.
+
+        Parameters
+        ----------
+        laws
+            Classes derived from `Part`, by the slot's name.
+
+        Raises
+        ------
+        UcritError
+            If there is no such slot or the law is of another kind than the slot takes.
+        """
+        slots = cls.declaration.slots
+        for name, law in laws.items():
+            if name not in slots:
+                raise UcritError(f"{cls.model_id()}: there is no slot '{name}' for a part{near_match(name, slots)}")
+            slots[name].fitted(law, cls.model_id())
+        changed = {**cls._laws, **laws}
+        base = cls._unfitted or cls
+        fitting = tuple((n, law) for n, law in sorted(changed.items()) if base.declaration.slots[n].law is not law)
+        found: type[Self] = _fitted(base, fitting) if fitting else base  # type: ignore[assignment]
+        return found
 
     @classmethod
     def title(cls) -> str:
@@ -211,8 +242,25 @@ class Model:
         return f"<b>{escape(self.info.name or type(self).__name__)}</b><table>{rows}</table>"
 
 
-def _restore(cls: type[Model], values: dict[str, Any], shared: dict[str, str], info: Info) -> Model:
-    model = cls(**values)
+def _make_fitted(cls: type[Model], laws: tuple[tuple[str, type[Part]], ...]) -> type[Model]:
+    slots = {name: cls.declaration.slots[name].fitted(law, cls.model_id()) for name, law in laws}
+    body = {"__module__": cls.__module__, "__doc__": cls.__doc__, "__qualname__": cls.__qualname__}
+    return type(cls.__name__, (cls,), {**body, **slots, "_unfitted": cls, "_laws": MappingProxyType(dict(laws))})
+
+
+_fitted: Any = cache(_make_fitted)
+
+
+def _restore(
+    cls: type[Model],
+    laws: dict[str, tuple[type[Part], dict[str, Constant]]],
+    values: dict[str, Any],
+    shared: dict[str, str],
+    info: Info,
+) -> Model:
+    model = cls.fitted(**{name: law.of(constants) if constants else law for name, (law, constants) in laws.items()})(
+        **values
+    )
     model.__dict__.update(info=info, _shared=MappingProxyType(shared))
     return model
 
@@ -240,12 +288,29 @@ def _declare(cls: type[Model]) -> Declaration:
                     raise ModelError(f"{cls.__name__}: a quantity cannot be called '{name}', that name is taken")
                 found.by_name.pop(name, None)
                 found.by_name[name] = replace(value, name=name)
+            elif isinstance(value, Slot):
+                found.by_name[name] = replace(value, name=name)
             elif name in found.by_name:
                 found.by_name.pop(name)  # a base's parameter fixed to a number, or a variable removed
-    declaration = Declaration(found.of(Parameter), found.of(Variable), found.of(Input), found.of(Output))
+    slots = MappingProxyType({k: v for k, v in found.by_name.items() if isinstance(v, Slot)})
+    for slot in slots.values():
+        setattr(cls, slot.name, slot)
+    found = _Found(_with_parts(cls, found.by_name))
+    declaration = Declaration(found.of(Parameter), found.of(Variable), found.of(Input), found.of(Output), slots)
     if sum(p.is_speed for p in declaration.parameters.values()) > 1:
         raise ModelError(f"{cls.__name__}: only one parameter can be the speed")
     return declaration
+
+
+def _with_parts(cls: type[Model], declared: Mapping[str, Any]) -> dict[str, Any]:
+    """Put the parameters of each slot's law in the slot's place."""
+    flat: dict[str, Any] = {}
+    for name, value in declared.items():
+        for key, quantity in (value.declared if isinstance(value, Slot) else {name: value}).items():
+            if key in flat or (isinstance(value, Slot) and key in declared):
+                raise ModelError(f"{cls.__name__}: '{key}' is declared twice, once as a parameter of '{name}'")
+            flat[key] = quantity
+    return flat
 
 
 def _check_methods(cls: type[Model]) -> None:
