@@ -35,16 +35,18 @@ class Trailer(Model):
         longitudinal = self.U * cos(x.theta) - dx.x * sin(x.theta)
         return lateral, longitudinal
 
+    def side_force(self, x, dx):
+        return linear_side_force(self.C, slip_angle(*self.axle_velocity(x, dx)))
+
     def forces(self, x, dx):
-        lateral, longitudinal = self.axle_velocity(x, dx)
+        lateral, _ = self.axle_velocity(x, dx)
         return (
-            (linear_side_force(self.C, slip_angle(lateral, longitudinal)), lateral),
+            (self.side_force(x, dx), lateral),
             (-self.c * dx.theta, dx.theta),
         )
 
     def equations_newton(self, x, dx, ddx):
-        lateral, longitudinal = self.axle_velocity(x, dx)
-        Y = linear_side_force(self.C, slip_angle(lateral, longitudinal))
+        Y = self.side_force(x, dx)
         acceleration = ddx.x + self.a * (ddx.theta * cos(x.theta) - dx.theta**2 * sin(x.theta))
         about_hitch = self.m * self.a * (self.a * ddx.theta + ddx.x * cos(x.theta))
         return (
