@@ -14,14 +14,16 @@ import numpy as np
 import numpy.typing as npt
 
 from . import collocation as co
-from .collocation import Corrected, Field, Metric, Orbit, Tangent
+from . import orbit as orbits
+from .collocation import Corrected, Field
+from .orbit import Metric, Orbit, Tangent, norm
 
 Array = npt.NDArray[Any]
 
 INTERVALS, MOST_INTERVALS = 20, 160
 STEP, SMALLEST_STEP = 0.15, 1e-6
-TURN = 0.9
-"""Least cosine between the directions at two neighbouring points."""
+TURN, CORNER = 0.9, 1e-3
+"""Least cosine between the directions at two neighbouring points, and the step below which it may be anything."""
 
 SHARE_OF_RANGE = 0.1
 BENT = 1e-3
@@ -108,7 +110,7 @@ def _metric(orbit: Orbit, span: float) -> Metric:
 
 
 def _point(field: Field, found: Corrected, metric: Metric, fold: bool = False) -> Point:
-    multipliers, trivial = co.multipliers(found.monodromy)
+    multipliers, trivial = orbits.multipliers(found.monodromy)
     error = co.error(field, found.orbit, metric.states)
     return Point(found.orbit, found.tangent, metric, multipliers, trivial, error, fold)
 
@@ -176,13 +178,15 @@ def follow(
 def _first(field: Field, hopf: Hopf, span: float) -> Point | None:
     """Return the first small cycle of a branch, as large as makes the equations' curvature felt."""
     size = _bending_size(field, hopf)
+    if np.isnan(size):
+        return None
     mesh = np.linspace(0, 1, INTERVALS + 1)
-    shares = mesh[:-1, None] + np.diff(mesh)[:, None] * co.NODES
+    shares = mesh[:-1, None] + np.diff(mesh)[:, None] * orbits.NODES
     wave = np.real(hopf.vector * np.exp(2j * np.pi * shares[..., None]))
     rest = Orbit(mesh, np.broadcast_to(hopf.state, wave.shape), 2 * np.pi / hopf.omega, hopf.parameter)
     for scale in size * np.array([1.0, 0.1, 0.01, 10.0]):
         away = Tangent(scale * wave, 0.0, 0.0)
-        guess = co.moved(rest, away, 1.0)
+        guess = orbits.moved(rest, away, 1.0)
         found = co.correct(field, guess, away, _metric(guess, span))
         if found is not None and abs(found.orbit.period / rest.period - 1) < 0.2:
             return _point(field, found, _metric(found.orbit, span))
@@ -204,7 +208,7 @@ def _bending_size(field: Field, hopf: Hopf) -> float:
         bent = np.abs((rates - rest[..., None]) / scales - linear[..., None]).max(axis=1) / level[:, None]
     share = np.nanmax(np.where(np.isfinite(bent), bent, np.inf), axis=0)
     far = np.flatnonzero((share > BENT) & (np.arange(len(scales)) > 20))
-    return float(scales[max(far[0] - 1, 0)] if far.size else 1.0)
+    return float(scales[max(far[0] - 1, 0)] if far.size else np.nan)
 
 
 def _refined(field: Field, point: Point, tolerance: float, number: int) -> Point:
@@ -215,7 +219,7 @@ def _refined(field: Field, point: Point, tolerance: float, number: int) -> Point
         more = int(min(max(1.2 * wanted, count), 2 * count, MOST_INTERVALS))
         if point.error <= tolerance and number % 4:
             return point
-        mesh = co.adapted_mesh(point.orbit, point.metric.states, max(more, INTERVALS))
+        mesh = orbits.adapted_mesh(point.orbit, point.metric.states, max(more, INTERVALS))
         changed = point.orbit.on(mesh)
         along = replace(point.orbit, values=point.tangent.values).on(mesh).values
         tangent = Tangent(along, point.tangent.period, point.tangent.parameter)
@@ -233,28 +237,27 @@ def _refined(field: Field, point: Point, tolerance: float, number: int) -> Point
 def _advance(field: Field, here: Point, step: float) -> tuple[Corrected | None, float, int]:
     """Return the next solution along a branch, the step that led to it and Newton's steps."""
     widths, metric = here.orbit.widths, here.metric
-    ahead = co.scaled(here.tangent, 1 / co.norm(here.tangent, widths, metric))
+    ahead = orbits.scaled(here.tangent, 1 / norm(here.tangent, widths, metric))
     while step > SMALLEST_STEP:
-        found = co.correct(field, co.moved(here.orbit, ahead, step), ahead, metric)
-        if found is not None and _cosine(found.tangent, ahead, widths, metric) > TURN:
+        found = co.correct(field, orbits.moved(here.orbit, ahead, step), ahead, metric)
+        least = TURN if step > CORNER else 0.0
+        if found is not None and _cosine(found.tangent, ahead, widths, metric) > least:
             return found, step, found.steps
         step /= 2
     return None, step, 0
 
 
 def _cosine(a: Tangent, b: Tangent, widths: Array, metric: Metric) -> float:
-    product = co.inner(a.values, b.values, widths, metric)
+    product = orbits.inner(a.values, b.values, widths, metric)
     product += a.period * b.period / metric.period**2 + a.parameter * b.parameter / metric.parameter**2
-    return product / co.norm(a, widths, metric) / co.norm(b, widths, metric)
+    return product / norm(a, widths, metric) / norm(b, widths, metric)
 
 
 def between(field: Field, a: Point, b: Point, share: float) -> Corrected | None:
     """Return the solution at a share of the way from one point of a branch to its neighbour."""
     other = b.orbit.on(a.orbit.mesh)
-    chord = Tangent(
-        other.values - a.orbit.values, other.period - a.orbit.period, other.parameter - a.orbit.parameter
-    )
-    return co.correct(field, co.moved(a.orbit, chord, share), chord, a.metric)
+    chord = Tangent(other.values - a.orbit.values, other.period - a.orbit.period, other.parameter - a.orbit.parameter)
+    return co.correct(field, orbits.moved(a.orbit, chord, share), chord, a.metric)
 
 
 def locate(field: Field, a: Point, b: Point, miss: Callable[[Corrected], float]) -> Point | None:
@@ -263,7 +266,7 @@ def locate(field: Field, a: Point, b: Point, miss: Callable[[Corrected], float])
     if ends[0] is None or ends[1] is None:
         return None
     low, high, f_low, f_high = 0.0, 1.0, miss(ends[0]), miss(ends[1])
-    best, size = min(zip(ends, map(abs, (f_low, f_high)), strict=True), key=lambda pair: pair[1])
+    best, size = (ends[0], abs(f_low)) if abs(f_low) < abs(f_high) else (ends[1], abs(f_high))
     if f_low * f_high > 0:
         return None
     for _ in range(ROOT_STEPS):
