@@ -13,7 +13,8 @@ from ..core.model import Model
 from ..core.motion import motion
 from ..core.units import to_si
 from ..numerics.collocation import Field
-from ..numerics.cycle_branch import Point, at_parameter
+from ..numerics.cycle_branch import at_parameter
+from ..numerics.cycle_points import Branch, Point
 from ..numerics.orbit import Orbit
 from .convert import Series, Table, Tabular
 from .critical import Critical
@@ -177,16 +178,7 @@ class CycleBranch(Tabular):
     @property
     def events(self) -> tuple[tuple[str, float], ...]:
         """Other changes of stability: what leaves the unit circle, and near which value of the parameter."""
-        found = []
-        for p, q in zip(self._points, self._points[1:], strict=False):
-            if p.unstable == q.unstable or p.fold or q.fold:
-                continue
-            more = max(p, q, key=lambda point: point.unstable)
-            outside = more.multipliers[np.abs(more.multipliers) > 1]
-            crossing = complex(outside[np.argmin(np.abs(outside))])
-            if abs(crossing) - 1 > max(p.trivial, q.trivial):  # nearer to 1 it cannot be told from a rounding
-                found.append((_event(crossing), 0.5 * (p.orbit.parameter + q.orbit.parameter)))
-        return tuple(found)
+        return Branch(self._points, self.end).events
 
     def at(self, value: float | str) -> tuple[Cycle, ...]:
         """Return the cycles at a value of the parameter [SI, or text with a unit], in the order of the branch."""
@@ -202,12 +194,6 @@ class CycleBranch(Tabular):
     def table(self) -> Table:
         """Return one row for each cycle: parameter, frequency, amplitudes, largest multiplier, stability, error."""
         return table_of(self.vehicle, self.parameter, (self,))
-
-
-def _event(multiplier: complex) -> str:
-    if abs(multiplier.imag) > 1e-9:
-        return "torus"
-    return "period doubling" if multiplier.real < 0 else "branching"
 
 
 def table_of(vehicle: Model, parameter: str, branches: tuple[CycleBranch, ...]) -> Table:

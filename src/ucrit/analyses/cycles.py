@@ -15,7 +15,8 @@ from ..core.model import Model
 from ..core.motion import motion
 from ..core.units import to_si
 from ..numerics.collocation import Field
-from ..numerics.cycle_branch import Branch, Hopf, follow
+from ..numerics.cycle_branch import follow
+from ..numerics.cycle_points import Branch, Hopf
 from .convert import Table, Tabular
 from .critical import Critical, CriticalValues, critical, parameter_name
 from .cycle import Cycle, CycleBranch, of_point, table_of

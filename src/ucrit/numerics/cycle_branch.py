@@ -7,7 +7,7 @@ the present cycle's own, so that a branch is followed by shares whatever the uni
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ import numpy.typing as npt
 from . import collocation as co
 from . import orbit as orbits
 from .collocation import Corrected, Field
+from .cycle_points import Branch, Hopf, Point
 from .orbit import Metric, Orbit, Tangent, norm
 
 Array = npt.NDArray[Any]
@@ -33,69 +34,6 @@ CLOSED = 0.3
 """A branch whose cycle has shrunk to this share of the first one ends in an equilibrium."""
 
 ROOT_STEPS = 40
-
-
-@dataclass(frozen=True)
-class Hopf:
-    """An equilibrium with a pair of imaginary eigenvalues: parameter, state (n,), frequency [rad/s], eigenvector."""
-
-    parameter: float
-    state: Array
-    omega: float
-    vector: Array
-
-
-@dataclass(frozen=True)
-class Point:
-    """A periodic solution on a branch.
-
-    Attributes
-    ----------
-    orbit, tangent, metric
-        The solution, the branch's direction there, and the sizes that this is measured by.
-    multipliers
-        Floquet multipliers but for the trivial one, largest first.
-    trivial
-        Distance of the trivial multiplier from 1.
-    error
-        Estimated relative error of the states.
-    fold
-        Whether the parameter is at an extreme of the branch.
-    """
-
-    orbit: Orbit
-    tangent: Tangent
-    metric: Metric
-    multipliers: Array
-    trivial: float
-    error: float
-    fold: bool = False
-
-    @property
-    def stable(self) -> bool:
-        """Whether all neighbouring motions come to the cycle."""
-        return not self.unstable
-
-    @property
-    def unstable(self) -> int:
-        """Number of multipliers outside the unit circle."""
-        return int(np.sum(np.abs(self.multipliers) > 1))
-
-
-@dataclass(frozen=True)
-class Branch:
-    """Periodic solutions in the order in which they were found, and why the last one is the last.
-
-    ``end`` is ``"range"``, ``"equilibrium"``, ``"stuck"`` or ``"count"``.
-    """
-
-    points: tuple[Point, ...]
-    end: str
-
-    @property
-    def folds(self) -> tuple[Point, ...]:
-        """Points where the parameter turns round."""
-        return tuple(point for point in self.points if point.fold)
 
 
 def sizes(orbit: Orbit) -> Array:
