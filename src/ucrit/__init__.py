@@ -9,11 +9,14 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.analyze import analyze as analyze
     from .analyses.approximation import approximation as approximation
+    from .analyses.basin import basin as basin
     from .analyses.compare import compare as compare
     from .analyses.convert import to_control as to_control
     from .analyses.convert import to_scipy as to_scipy
     from .analyses.criteria import criteria as criteria
     from .analyses.critical import critical as critical
+    from .analyses.cycles import limit_cycles as cycles  # noqa: F401
+    from .analyses.cycles import limit_cycles as limit_cycles
     from .analyses.forms import Descriptor as Descriptor
     from .analyses.forms import NthOrder as NthOrder
     from .analyses.forms import SecondOrder as SecondOrder
@@ -92,7 +95,9 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "verdict": "analyses.verdict",
     "approximation": "analyses.approximation",
     "axle_loads": "analyses.steady",
+    "basin": "analyses.basin",
     "compare": "analyses.compare",
+    "cycles": ("analyses.cycles", "limit_cycles"),
     "frequency_response": "analyses.response",
     "impulse_response": "analyses.response",
     "step_response": "analyses.response",
@@ -102,6 +107,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "StateSpace": "analyses.forms",
     "forms": "analyses.forms",
     "limit": "analyses.limits",
+    "limit_cycles": "analyses.cycles",
     "moment_line": "analyses.pitching",
     "static_margin": "analyses.pitching",
     "routh": "analyses.routh",

@@ -122,7 +122,7 @@ class CycleBranch(Tabular):
         The limit cycles, from the smallest one next to the critical value.
     end
         Why the branch is followed no further: ``"range"`` (the parameter's), ``"equilibrium"`` (it ends in another
-        critical value), ``"stuck"`` (no neighbour was found) or ``"count"``.
+        critical value), ``"large"`` (angles pass 90 degrees), ``"stuck"`` (no neighbour was found) or ``"count"``.
     """
 
     vehicle: Model

@@ -21,6 +21,7 @@ EVENTS = {
 ENDS = {
     "range": "",
     "equilibrium": "the branch ends in another critical value",
+    "large": "the branch is not followed to angles beyond 90 degrees",
     "stuck": "the branch cannot be followed further",
     "count": "the branch is not followed further",
 }

@@ -17,6 +17,7 @@ from ..core.units import to_si
 from ..numerics.collocation import Field
 from ..numerics.cycle_branch import follow
 from ..numerics.cycle_points import Branch, Hopf
+from ..numerics.orbit import Orbit
 from .convert import Table, Tabular
 from .critical import Critical, CriticalValues, critical, parameter_name
 from .cycle import Cycle, CycleBranch, of_point, table_of
@@ -165,7 +166,8 @@ def limit_cycles(
             if progress is not None:
                 progress(number * most + done, len(flutter) * most)
 
-        branch = follow(moving, _hopf(vehicle, moving, event), low, high, tolerance=tolerance, progress=advance)
+        options: Any = {"tolerance": tolerance, "beyond": _sideways(vehicle), "progress": advance}
+        branch = follow(moving, _hopf(vehicle, moving, event), low, high, **options)
         found.append(_result(vehicle, event, moving, branch))
     if progress is not None:
         progress(1, 1)
@@ -184,6 +186,14 @@ def _span(
     high = min(values.upper, sides[1]) if upper is None else values.upper
     margin = 1e-9 * (high - low)  # the bounds themselves may not be allowed
     return low + margin, high - margin
+
+
+def _sideways(vehicle: Model) -> Callable[[Orbit], bool]:
+    """Return what tells whether an angle of an orbit passes 90 degrees, where no vehicle runs on."""
+    declared = type(vehicle).declaration.variables
+    labels = motion(type(vehicle)).labels
+    angles = [i for i, label in enumerate(labels) if label in declared and declared[label].unit == "rad"]
+    return lambda orbit: bool(np.any(np.abs(orbit.dense()[angles]) > np.pi / 2))
 
 
 def _ends_at(branch: CycleBranch, value: float) -> bool:

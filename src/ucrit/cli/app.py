@@ -19,6 +19,7 @@ COMMANDS = {
     "show": "show",
     "new": "new",
     "sweep": "sweep",
+    "cycles": "cycles",
     "routh": "routh",
     "check": "check",
     "completion": "completion",

@@ -61,6 +61,7 @@ def follow(
     *,
     tolerance: float = 1e-6,
     count: int = 400,
+    beyond: Callable[[Orbit], bool] | None = None,
     progress: Callable[[int, int], None] | None = None,
 ) -> Branch | None:
     """Follow the periodic solutions that leave a Hopf point.
@@ -77,6 +78,8 @@ def follow(
         Relative error of the states that is asked for; what is reached is told at each point.
     count
         Most points.
+    beyond
+        Tells of an orbit that the branch shall not be followed to it.
     progress
         Called with the number of points found and the most.
 
@@ -99,6 +102,8 @@ def follow(
         if here.tangent.parameter * new.tangent.parameter < 0:
             turn = locate(field, here, new, lambda found: found.tangent.parameter)
             points += [turn] if turn else []
+        if beyond is not None and beyond(new.orbit):
+            return Branch(tuple(points), "large")
         points.append(new)
         parameter = new.orbit.parameter
         if not lower <= parameter <= upper:

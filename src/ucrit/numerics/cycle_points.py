@@ -65,7 +65,7 @@ class Point:
 class Branch:
     """Periodic solutions in the order in which they were found, and why the last one is the last.
 
-    ``end`` is ``"range"``, ``"equilibrium"``, ``"stuck"`` or ``"count"``.
+    ``end`` is ``"range"``, ``"equilibrium"``, ``"large"``, ``"stuck"`` or ``"count"``.
     """
 
     points: tuple[Point, ...]

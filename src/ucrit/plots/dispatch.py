@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..core.errors import UcritError
+from .cycles import plot_cycles
 from .mode_shapes import plot_mode_shapes
 from .overview import plot_overview
 from .remedies import plot_remedies
@@ -12,13 +13,13 @@ from .stability_map import plot_map
 
 
 def plot(result: Any, *, figure: Any = None) -> Any:
-    """Draw a result: an analysis, a root locus, modes, remedies, a stability map.
+    """Draw a result: an analysis, a root locus, modes, remedies, a stability map, limit cycles.
 
     Parameters
     ----------
     result
-        What `ucrit.analyze`, `locus`, `modes`, `remedies` or `stability_map` returned. Of an analysis the
-        root locus and the damping against speed are drawn, of a vehicle without speed its modes.
+        What `ucrit.analyze`, `locus`, `modes`, `remedies`, `stability_map` or `limit_cycles` returned. Of
+        an analysis the root locus and the damping against speed are drawn, of a vehicle without speed its modes.
     figure
         Figure to draw into; a new one by default.
 
@@ -38,6 +39,7 @@ def plot(result: Any, *, figure: Any = None) -> Any:
     2
     """
     from ..analyses.analyze import Analysis
+    from ..analyses.cycles import LimitCycles
     from ..analyses.locus import Locus
     from ..analyses.modes import Modes
     from ..analyses.remedies import Remedy
@@ -51,11 +53,13 @@ def plot(result: Any, *, figure: Any = None) -> Any:
         return plot_mode_shapes(result.list(), result.vehicle, figure=figure)
     if isinstance(result, StabilityMap):
         return plot_map(result, figure=figure)
+    if isinstance(result, LimitCycles):
+        return plot_cycles(result, figure=figure)
     if isinstance(result, tuple) and result and all(isinstance(item, Remedy) for item in result):
         return plot_remedies(result, figure=figure)
     raise UcritError(
         f"there is no drawing for {type(result).__name__}; "
-        "drawn are the results of analyze, locus, modes, remedies and stability_map"
+        "drawn are the results of analyze, locus, modes, remedies, stability_map and limit_cycles"
     )
 
 

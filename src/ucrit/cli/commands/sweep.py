@@ -54,7 +54,7 @@ def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], out
     subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
     read = assignments(ranges, '"U=20:130:12 km/h"')
     _refuse_both(read, assignments(changes, "a=1.9"))
-    with _progress() as progress:
+    with progress_bar("sweep") as progress:
         result = sweep(subject, progress=progress, **read)
     write(result)
 
@@ -77,7 +77,7 @@ def _writer(output: str | None) -> Callable[[Any], None]:
     if ending not in FORMATS:
         raise UcritError(f"the output '{output}' must end in {', '.join(FORMATS)}")
     if ending == ".nc":
-        return lambda result: _to_netcdf(result, output)
+        return lambda result: to_netcdf(result, output)
     return lambda result: getattr(result, FORMATS[ending])(output)
 
 
@@ -90,7 +90,7 @@ def _to_stdout(result: Any) -> None:
     writer.writerows(zip(*(values.tolist() for _, _, values in columns), strict=True))
 
 
-def _to_netcdf(result: Any, path: str) -> None:
+def to_netcdf(result: Any, path: str) -> None:
     """Write a netCDF file, whole or not at all."""
     from ...analyses.convert import write_whole
 
@@ -99,7 +99,7 @@ def _to_netcdf(result: Any, path: str) -> None:
 
 
 @contextmanager
-def _progress() -> Iterator[Callable[[int, int], None]]:
+def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
     """Yield a function that shows a bar on stderr once the work has taken a second, if that is a terminal."""
     start = time.monotonic()
     bars: list[Any] = []
@@ -111,7 +111,7 @@ def _progress() -> Iterator[Callable[[int, int], None]]:
             from ..terminal import terminal
 
             bar = Progress(console=terminal(stderr=True), transient=True)
-            bars.append((bar, bar.add_task("sweep", total=total)))
+            bars.append((bar, bar.add_task(what, total=total)))
             bar.start()
         for bar, task in bars:
             bar.update(task, completed=done, total=total)
