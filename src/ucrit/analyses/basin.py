@@ -23,8 +23,11 @@ LANES = 32
 
 ROUNDS = 2
 PERIODS = 300
-INSIDE, OUTSIDE, TREND = 0.8, 1.25, 4
+INSIDE, OUTSIDE, TREND = 0.9, 1.1, 6
 """Shares of the unstable cycle beyond which a motion that shrank or grew for so many periods is decided."""
+
+STEADY = 0.02
+"""Share by which a motion that stays beyond the unstable cycle may shrink in a period."""
 
 LARGEST = 8.0
 """Largest disturbance that is tried, as a multiple of the unstable cycle's amplitude; the smallest is its inverse."""
@@ -86,7 +89,7 @@ def basin(
     cycles
         What `limit_cycles` returned for this vehicle; followed in the speed by default.
     progress
-        Called with the number of rounds done and of all.
+        Called with the number of periods followed and the most there can be.
 
     Returns
     -------
@@ -101,9 +104,8 @@ def basin(
     Examples
     --------
     >>> from ucrit import basin, load
-    >>> found = basin(load("caravan-with-stabiliser"), "theta")
-    >>> 0.05 < found.threshold < 0.5
-    True
+    >>> print(basin(load("caravan-with-stabiliser", {"U": 24}), "theta'"))
+    At 24 m/s (86.4 km/h) a disturbance of theta' beyond ...
     """
     model, labels = type(vehicle), motion(type(vehicle)).labels
     if state not in labels:
@@ -120,9 +122,9 @@ def basin(
     unstable = min(border, key=lambda c: c.amplitude[state])
     larger = [c for c in here if c.stable and c.amplitude[state] > unstable.amplitude[state]]
     stable = min(larger, key=lambda c: c.amplitude[state]) if larger else None
-    trial = _Trial(vehicle, cycles.parameter, labels.index(state), unstable)
-    inside, outside = _bracketed(trial, unstable.amplitude[state], progress, model.model_id(), state)
     unit = model.declaration.variables[state.rstrip("'")].state_unit(state.count("'"))
+    trial = _Trial(vehicle, cycles.parameter, labels.index(state), unstable, unit)
+    inside, outside = _bracketed(trial, unstable.amplitude[state], progress, model.model_id(), state)
     return Basin(vehicle, state, unit, inside, outside, unstable, stable, place)
 
 
@@ -132,42 +134,49 @@ def _bracketed(
     """Return the largest disturbance that dies out and the smallest that does not."""
     sizes, inside, outside = scale * np.geomspace(1 / LARGEST, LARGEST, LANES), 0.0, np.inf
     for number in range(ROUNDS):
-        if progress is not None:
-            progress(number, ROUNDS)
-        kept = trial.persists(sizes)
+
+        def advance(periods: int, number: int = number) -> None:
+            if progress is not None:
+                progress(number * PERIODS + periods, ROUNDS * PERIODS)
+
+        kept = trial.persists(sizes, advance)
         if not kept.any() and not np.isfinite(outside):
-            raise UcritError(f"{model}: every disturbance of {state} up to {sizes[-1]:.4g} dies out")
+            size = amplitude_text(float(sizes[-1]), trial.unit)
+            raise UcritError(f"{model}: every disturbance of {state} up to {size} dies out")
         first = int(np.argmax(kept)) if kept.any() else len(sizes)
         inside = float(sizes[first - 1]) if first else inside
         outside = float(sizes[first]) if first < len(sizes) else outside
         sizes = np.linspace(inside, outside, LANES + 2)[1:-1]
     if progress is not None:
-        progress(ROUNDS, ROUNDS)
+        progress(1, 1)
     return inside, outside
 
 
 class _Trial:
     """Simulations of several disturbances of one state side by side."""
 
-    def __init__(self, vehicle: Model, parameter: str, place: int, unstable: Cycle) -> None:
+    def __init__(self, vehicle: Model, parameter: str, place: int, unstable: Cycle, unit: str) -> None:
+        self.unit = unit
         self.value, self.place, self.period = float(vehicle.values[parameter]), place, unstable.period
         self.rates = field_of(vehicle, parameter).rates
         self.rest, _ = motion(type(vehicle)).basic(vehicle.arguments())
         self.scale = np.array([*unstable.amplitude.values()])[:, None]
         self.scale = np.where(self.scale > 0, self.scale, np.inf)
 
-    def persists(self, sizes: Array) -> Array:
+    def persists(self, sizes: Array, advance: Callable[[int], None]) -> Array:
         """Return which disturbances do not die out."""
         states = np.repeat(self.rest[:, None], len(sizes), axis=1)
         states[self.place] += sizes
         lanes, kept = np.arange(len(sizes)), np.zeros(len(sizes), dtype=bool)
         history: list[Array] = []
-        for _ in range(PERIODS):
+        for number in range(PERIODS):
+            advance(number)
             states, size = self._period(states)
             history = [*history[-TREND:], size]
             steps = np.diff(np.array(history), axis=0)
             long = len(history) > TREND
-            grown = ~np.isfinite(size) | (long & (size > OUTSIDE) & (steps > 0).all(axis=0))
+            steady = (steps > -STEADY * size).all(axis=0)  # grows, or has come to another limit cycle
+            grown = ~np.isfinite(size) | (long & (size > OUTSIDE) & steady)
             shrunk = long & (size < INSIDE) & (steps < 0).all(axis=0)
             kept[lanes[grown]] = True
             open_ = ~(grown | shrunk)

@@ -47,7 +47,8 @@ class Cycle(Tabular):
     stable, fold
         Whether all multipliers are inside the unit circle, and whether the branch turns round here.
     error
-        Estimated relative error of the states.
+        Estimated relative error of the states that the mesh makes. At a given value of the parameter a cycle with a
+        multiplier near 1 is less certain, by the factor ``1/abs(1 - multiplier)``.
     accuracy
         How far the multiplier that should be 1 is from it: the error of the multipliers.
     """

@@ -110,7 +110,8 @@ def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
 
             from ..terminal import terminal
 
-            bar = Progress(console=terminal(stderr=True), transient=True)
+            console = terminal(stderr=True)
+            bar = Progress(console=console, transient=True, disable=not console.is_terminal)
             bars.append((bar, bar.add_task(what, total=total)))
             bar.start()
         for bar, task in bars:
