@@ -79,7 +79,7 @@ def test_multipliers_are_those_of_the_simulated_flow():
     expected = expected[np.argsort(np.abs(expected - 1))]
     assert expected[0] == pytest.approx(1, abs=5e-5)  # a clipped law's flow has kinks, which differences of 1e-5 feel
     tolerance = 10 * cycle.accuracy
-    assert tolerance < 1e-3
+    assert tolerance < 1e-2
     np.testing.assert_allclose(np.sort(cycle.multipliers.real), np.sort(expected[1:].real), rtol=tolerance)
 
 
@@ -91,7 +91,7 @@ def test_a_clipped_law_costs_accuracy_and_the_estimate_says_so():
     found = simulate(cycle.vehicle, cycle.period, start, times=times, tolerance=1e-11)
     sizes = np.array([*cycle.amplitude.values()])
     apart = np.abs(found.values - cycle.states(times).T) / sizes
-    assert 1e-9 < apart.max() < 20 * cycle.error
+    assert 1e-9 < apart.max() < 4 * cycle.error
     assert cycle.error < 2e-6
 
 
@@ -161,7 +161,7 @@ def test_any_parameter_can_be_varied():
     speeds = followed("caravan-on-brush-tires").at(25)
     at = [c for c in found.at(4000) if c.stable]
     assert branch.unit == "N m s/rad"
-    sure = 5 * speeds[0].error / (1 - speeds[0].multipliers[0].real)
+    sure = 5 * (at[0].error + speeds[0].error) / (1 - speeds[0].multipliers[0].real)
     assert sure < 1e-3
     assert at[0].amplitude["theta"] == pytest.approx(speeds[0].amplitude["theta"], rel=sure)
 
