@@ -166,6 +166,15 @@ def test_any_parameter_can_be_varied():
     assert at[0].amplitude["theta"] == pytest.approx(speeds[0].amplitude["theta"], rel=sure)
 
 
+def test_a_branch_reaches_the_ends_of_the_range_that_is_asked_for():
+    found = limit_cycles(load("nose-gear", {"k": -10}), upper=24)
+    assert found.branches[0].values[-1] == 24
+    (end,) = found.at(24)
+    (inside,) = followed("nose-gear", k=-10).at(24)
+    assert end.amplitude["psi"] == pytest.approx(inside.amplitude["psi"], rel=1e-5)
+    assert limit_cycles(load("nose-gear", {"k": -10}), lower=0, upper=24).lower > 0
+
+
 def test_words():
     text = str(followed("caravan-with-stabiliser"))
     for part in ("26.79 m/s (96.4 km/h)", "Subcritical", "22.62 m/s", "non-linear critical value"):

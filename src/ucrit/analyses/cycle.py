@@ -188,7 +188,7 @@ class CycleBranch(Tabular):
         for p, q in zip(self._points, self._points[1:], strict=False):
             low, high = sorted((p.orbit.parameter, q.orbit.parameter))
             if low <= wanted <= high and wanted != p.orbit.parameter:
-                point = at_parameter(self._field, p, q, wanted)
+                point = q if wanted == q.orbit.parameter else at_parameter(self._field, p, q, wanted)
                 found += [of_point(self.vehicle, self.parameter, point)] if point else []
         return tuple(found)
 

@@ -184,8 +184,9 @@ def _span(
     sides = sorted((0.2 * first, 3 * first))
     low = max(values.lower, sides[0]) if lower is None else values.lower
     high = min(values.upper, sides[1]) if upper is None else values.upper
-    margin = 1e-9 * (high - low)  # the bounds themselves may not be allowed
-    return low + margin, high - margin
+    declared = type(values.vehicle).declaration.parameters[values.parameter]
+    margin = 1e-9 * (high - low)  # a parameter's own bounds may not be allowed, such as standing still
+    return max(low, declared.lower + margin), min(high, declared.upper - margin)
 
 
 def _sideways(vehicle: Model) -> Callable[[Orbit], bool]:
