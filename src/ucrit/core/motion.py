@@ -61,7 +61,9 @@ class Motion:
     def highest(self, w: Array, u: Array, arguments: Arguments) -> Array:
         """Return the highest derivatives and algebraic unknowns, states along the first axis of ``w``."""
         n = int(self._facts["size"])
-        entries = np.broadcast_arrays(*self._function(w, u, arguments), np.zeros(np.shape(w)[1:]))[:-1]
+        with np.errstate(divide="ignore", invalid="ignore"):  # in the piece of a law that is not chosen
+            values = self._function(w, u, arguments)
+        entries = np.broadcast_arrays(*values, np.zeros(np.shape(w)[1:]))[:-1]
         flat = np.moveaxis(np.array(entries, dtype=float), 0, -1)
         M = flat[..., : n * n].reshape(*flat.shape[:-1], n, n)
         z = np.linalg.solve(M, flat[..., n * n :, None])[..., 0]
