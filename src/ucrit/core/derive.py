@@ -81,7 +81,10 @@ def motion_slope_facts(model: type[Model]) -> dict[str, Any]:
     parameters = list(traced.parameters.values())
     residuals = solved.M * z - solved.f
     groups = traced.states, traced.highest, traced.u, parameters
-    by = {"residual": (*traced.states, *traced.u, *parameters), "output": (*groups[0], *groups[1], *groups[2])}
+    by = {
+        "residual": (*traced.states, *traced.u, *parameters),
+        "output": (*traced.states, *traced.highest, *traced.u, *parameters),
+    }
     return {
         name: _sparse(name, groups, expressions, variables)
         for (name, variables), expressions in zip(by.items(), (residuals, traced.outputs), strict=True)

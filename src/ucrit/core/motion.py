@@ -16,13 +16,14 @@ from .model import Model
 
 
 class Slopes(NamedTuple):
-    """Matrices (..., rows, columns): ``w' = A dw + B du + E dp``, ``y = C dw + D du`` about a point of the motion."""
+    """Matrices (..., rows, columns): ``w' = A dw + B du + E dp``, ``y = C dw + D du + F dp`` about a point."""
 
     A: Array
     B: Array
     C: Array
     D: Array
     E: Array
+    F: Array
 
 
 @dataclass(frozen=True)
@@ -108,12 +109,18 @@ class Motion:
             rows.append(row)
         by_all = np.stack(rows, axis=-2)
         outputs = len(self.model.declaration.outputs)
-        direct = self._stacked("output", (outputs, n + len(z) + m), lead, (w, z, u, arguments))
-        Cw, Cz, D = np.split(direct, [n, n + len(z)], axis=-1)
-        by_output = np.concatenate([Cw, D], axis=-1) + Cz @ dz[..., : n + m]
-        return Slopes(
-            by_all[..., :n], by_all[..., n : n + m], by_output[..., :n], by_output[..., n:], by_all[..., n + m :]
-        )
+        direct = self._stacked("output", (outputs, n + len(z) + m + len(arguments)), lead, (w, z, u, arguments))
+        Cw, Cz, rest = np.split(direct, [n, n + len(z)], axis=-1)
+        by_output = np.concatenate([Cw, rest], axis=-1) + Cz @ dz
+        (A, B, E), (C, D, F) = (np.split(whole, [n, n + m], axis=-1) for whole in (by_all, by_output))
+        return Slopes(A, B, C, D, E, F)
+
+    @property
+    def cyclic(self) -> tuple[bool, ...]:
+        """Which states no rate depends on, such as the place on the road: they never settle and never matter."""
+        used = {j for name in ("residual",) for _, j in self._slope_facts[name]["places"]}
+        used |= {i for kind, i in self._facts["rates"] if kind == "w"}
+        return tuple(j not in used for j in range(len(self.labels)))
 
     def _mass(self, w: Array, u: Array, arguments: Arguments, lead: tuple[int, ...]) -> Array:
         n = int(self._facts["size"])
