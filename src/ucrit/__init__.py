@@ -19,6 +19,8 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.forms import SecondOrder as SecondOrder
     from .analyses.forms import StateSpace as StateSpace
     from .analyses.forms import forms as forms
+    from .analyses.handling import handling_diagram as handling  # noqa: F401
+    from .analyses.handling import handling_diagram as handling_diagram
     from .analyses.limits import limit as limit
     from .analyses.listing import listing as list  # noqa: F401
     from .analyses.listing import template as new  # noqa: F401
@@ -38,6 +40,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.static import static_stability as static_stability
     from .analyses.steady import axle_loads as axle_loads
     from .analyses.steady import steady_turn as steady_turn
+    from .analyses.steady_family import steady_family as steady_family
     from .analyses.sweep import sweep as sweep
     from .analyses.transfer import transfer as transfer
     from .analyses.trim import trim as trim
@@ -101,12 +104,15 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "SecondOrder": "analyses.forms",
     "StateSpace": "analyses.forms",
     "forms": "analyses.forms",
+    "handling": ("analyses.handling", "handling_diagram"),
+    "handling_diagram": "analyses.handling",
     "limit": "analyses.limits",
     "moment_line": "analyses.pitching",
     "static_margin": "analyses.pitching",
     "routh": "analyses.routh",
     "simulate": "analyses.simulate",
     "static_stability": "analyses.static",
+    "steady_family": "analyses.steady_family",
     "steady_turn": "analyses.steady",
     "transfer": "analyses.transfer",
     "trim": "analyses.trim",

@@ -8,6 +8,8 @@ from __future__ import annotations
 
 from .damping import plot_damping
 from .dispatch import plot
+from .family import plot_family
+from .handling import plot_handling
 from .mode_shapes import plot_mode_shapes
 from .overview import plot_overview
 from .participation import plot_participation
@@ -18,6 +20,8 @@ from .stability_map import plot_map
 __all__ = [
     "plot",
     "plot_damping",
+    "plot_family",
+    "plot_handling",
     "plot_locus",
     "plot_map",
     "plot_mode_shapes",

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from ..core.errors import UcritError
+from .family import plot_family
+from .handling import plot_handling
 from .mode_shapes import plot_mode_shapes
 from .overview import plot_overview
 from .remedies import plot_remedies
@@ -12,13 +14,14 @@ from .stability_map import plot_map
 
 
 def plot(result: Any, *, figure: Any = None) -> Any:
-    """Draw a result: an analysis, a root locus, modes, remedies, a stability map.
+    """Draw a result: an analysis, a root locus, modes, remedies, a stability map, steady turns.
 
     Parameters
     ----------
     result
-        What `ucrit.analyze`, `locus`, `modes`, `remedies` or `stability_map` returned. Of an analysis the
-        root locus and the damping against speed are drawn, of a vehicle without speed its modes.
+        What `ucrit.analyze`, `locus`, `modes`, `remedies`, `stability_map`, `handling_diagram` or `steady_family`
+        returned. Of an analysis the root locus and the damping against speed are drawn, of a vehicle without speed
+        its modes.
     figure
         Figure to draw into; a new one by default.
 
@@ -38,10 +41,12 @@ def plot(result: Any, *, figure: Any = None) -> Any:
     2
     """
     from ..analyses.analyze import Analysis
+    from ..analyses.handling import Handling
     from ..analyses.locus import Locus
     from ..analyses.modes import Modes
     from ..analyses.remedies import Remedy
     from ..analyses.stability_map import StabilityMap
+    from ..analyses.steady_family import SteadyFamily
 
     if isinstance(result, Analysis):
         return _analysis(result, figure)
@@ -51,11 +56,15 @@ def plot(result: Any, *, figure: Any = None) -> Any:
         return plot_mode_shapes(result.list(), result.vehicle, figure=figure)
     if isinstance(result, StabilityMap):
         return plot_map(result, figure=figure)
+    if isinstance(result, Handling):
+        return plot_handling(result, figure=figure)
+    if isinstance(result, SteadyFamily):
+        return plot_family(result, figure=figure)
     if isinstance(result, tuple) and result and all(isinstance(item, Remedy) for item in result):
         return plot_remedies(result, figure=figure)
     raise UcritError(
         f"there is no drawing for {type(result).__name__}; "
-        "drawn are the results of analyze, locus, modes, remedies and stability_map"
+        "drawn are the results of analyze, handling_diagram, locus, modes, remedies, stability_map and steady_family"
     )
 
 
