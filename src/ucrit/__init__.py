@@ -32,6 +32,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.response import frequency_response as frequency_response
     from .analyses.response import impulse_response as impulse_response
     from .analyses.response import step_response as step_response
+    from .analyses.rollover import rollover as rollover
     from .analyses.routh import routh as routh
     from .analyses.sensitivity import sensitivity as sensitivity
     from .analyses.show import show as show
@@ -109,6 +110,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "limit": "analyses.limits",
     "moment_line": "analyses.pitching",
     "static_margin": "analyses.pitching",
+    "rollover": "analyses.rollover",
     "routh": "analyses.routh",
     "simulate": "analyses.simulate",
     "static_stability": "analyses.static",
