@@ -21,7 +21,7 @@ from .steady_problem import Problem
 
 Array = npt.NDArray[Any]
 
-STILL = 1e-9
+STILL = 1e-11
 """Real parts of eigenvalues below this share of the largest eigenvalue count as zero."""
 
 STANDING = 1e-6

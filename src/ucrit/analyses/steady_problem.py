@@ -50,6 +50,7 @@ class Problem:
                 f"{self.model}: {extra} input{'s' * (extra != 1)} or parameter{'s' * (extra != 1)} must be free to move "
                 f"{along}{' and hold ' + ', '.join(self.hold) if self.hold else ''}, got {', '.join(free) or 'none'}"
             )
+        self._kept: tuple[bytes, tuple[Array, Array, Slopes]] | None = None
         self.arguments = np.array(vehicle.arguments(), dtype=float)
         self.basic_w, self.basic_u = self.moving.basic(tuple(self.arguments))
 
@@ -106,10 +107,14 @@ class Problem:
         return w, u, p
 
     def _slopes(self, y: Array) -> tuple[Array, Array, Slopes]:
-        """Return rates, outputs and slopes; not-a-number where the equations are singular."""
-        w, u, p = self.split(y)
-        with np.errstate(all="ignore"):
-            return self.moving.rhs(w, u, p), self.moving.outputs(w, u, p), self.moving.slopes(w, u, p)
+        """Return rates, outputs and slopes; those of the last unknowns are kept, as all tests of a point ask for them."""
+        key = y.tobytes() + bytes(y.ndim)
+        if self._kept is None or self._kept[0] != key:
+            w, u, p = self.split(y)
+            with np.errstate(all="ignore"):
+                found = self.moving.rhs(w, u, p), self.moving.outputs(w, u, p), self.moving.slopes(w, u, p)
+            self._kept = key, found
+        return self._kept[1]
 
     def _columns(self, by_state: Array, by_input: Array, by_parameter: Array) -> Array:
         """Pick the columns of the unknowns."""
@@ -146,9 +151,7 @@ class Problem:
     def value(self, name: str, y: Array) -> float:
         """Return any moving quantity at one point."""
         if name in self.outputs:
-            w, u, p = self.split(y)
-            with np.errstate(all="ignore"):
-                return float(self.moving.outputs(w, u, p)[self.outputs.index(name)])
+            return float(self._slopes(y)[1][self.outputs.index(name)])
         return float(self._quantity(name, y, np.empty(0), np.empty(0))[0])
 
     def gradient(self, name: str, y: Array) -> Array:
