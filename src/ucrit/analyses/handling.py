@@ -17,6 +17,7 @@ import numpy.typing as npt
 
 from ..core.errors import UcritError
 from ..core.model import Model
+from ..core.units import to_si
 from .convert import Series, Table, Tabular
 from .steady import GRAVITY
 from .steady_family import SteadyFamily, steady_family
@@ -174,9 +175,10 @@ def handling_diagram(
     others = tuple(keeps) if free is None else (free,) if isinstance(free, str) else tuple(free)
     speed = float(vehicle.values[type(vehicle).declaration.speed or ""])
     hold = {keeps[name]: speed for name in others if name in keeps}
-    reach = slip if isinstance(slip, str) else float(slip)
-    within = {name: (f"-{reach}" if isinstance(reach, str) else -reach, reach) for name in ("alpha_f", "alpha_r")}
-    within |= getattr(type(vehicle), "valid", {})
+    reach = to_si(slip, "rad", "slip")
+    if not 0 < reach < np.inf:
+        raise UcritError(f"slip must be above 0 rad, got {reach:g} rad")
+    within = {name: (-reach, reach) for name in ("alpha_f", "alpha_r")} | getattr(type(vehicle), "valid", {})
     family = steady_family(
         vehicle, "a_y", BEYOND * GRAVITY, free=(steer, *others), hold=hold, within=within, step=step
     )
