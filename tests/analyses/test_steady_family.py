@@ -33,7 +33,9 @@ def test_every_point_is_steady_and_its_rates_are_those_of_the_curve():
     for name in ("beta", "alpha_r", "curvature"):
         by_hand = np.gradient(turns[name], length) / np.gradient(turns["delta_f"], length)
         smooth = np.abs(turns.slope(name, "delta_f")) < 20
-        np.testing.assert_allclose(by_hand[smooth][2:-2], turns.slope(name, "delta_f")[smooth][2:-2], rtol=0.2, atol=0.3)
+        np.testing.assert_allclose(
+            by_hand[smooth][2:-2], turns.slope(name, "delta_f")[smooth][2:-2], rtol=0.2, atol=0.3
+        )
 
 
 def test_a_car_at_the_limit_turns_back_and_diverges():

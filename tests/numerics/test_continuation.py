@@ -103,7 +103,7 @@ def test_what_cannot_be_followed_is_named():
     found = follow(wall, np.array([1.0, 0]), np.array([-1.0, 1]))
     assert found.end == "failed"
     assert found.points[-1, 1] == pytest.approx(1, abs=1e-3)
-    with pytest.raises(NoConvergenceError, match="does not converge|singular"):
+    with pytest.raises(NoConvergenceError, match=r"does not converge|singular"):
         follow(lambda y: (np.array([y @ y + 1]), 2 * y[None]), np.array([1.0, 0]), np.array([0, 1.0]))
 
 
@@ -123,10 +123,8 @@ def test_steps_do_not_depend_on_units(powers):
         return c * np.array([x**3 - x - p]), c * np.array([[(3 * x**2 - 1) / a, -1 / b]])
 
     def followed(f, unit):
-        tests = {"fold": turning(1)}
-        return follow(
-            f, np.array([-1.5, -1.875]) * unit, unit, scale=unit, tests=tests, stops={"end": lambda y: 1.5 * unit[0] - y[0]}
-        )
+        tests, stops = {"fold": turning(1)}, {"end": lambda y: 1.5 * unit[0] - y[0]}
+        return follow(f, np.array([-1.5, -1.875]) * unit, unit, scale=unit, tests=tests, stops=stops)
 
     one = followed(lambda y: (np.array([y[0] ** 3 - y[0] - y[1]]), np.array([[3 * y[0] ** 2 - 1, -1.0]])), np.ones(2))
     other = followed(cubic, np.array([a, b]))

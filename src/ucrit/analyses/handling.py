@@ -178,10 +178,8 @@ def handling_diagram(
     reach = to_si(slip, "rad", "slip")
     if not 0 < reach < np.inf:
         raise UcritError(f"slip must be above 0 rad, got {reach:g} rad")
-    within = {name: (-reach, reach) for name in ("alpha_f", "alpha_r")} | getattr(type(vehicle), "valid", {})
-    family = steady_family(
-        vehicle, "a_y", BEYOND * GRAVITY, free=(steer, *others), hold=hold, within=within, step=step
-    )
+    within = {"alpha_f": (-reach, reach), "alpha_r": (-reach, reach), **getattr(type(vehicle), "valid", {})}
+    family = steady_family(vehicle, "a_y", BEYOND * GRAVITY, free=(steer, *others), hold=hold, within=within, step=step)
     return _diagram(vehicle, steer, family, speed)
 
 

@@ -41,7 +41,9 @@ def sentences(found: Handling) -> list[str]:
         a, b = (0.0 if abs(v) < 1e-9 * found.largest else v for v in part.a_y)
         lines.append(f"    {part.kind:<11}{acceleration(a) if a else '0'} to {acceleration(b)}")
     if np.isfinite(found.unstable_from):
-        change = next(c for c in found.family.changes)
+        change = found.family.changes[0]
         at = f" at {change.frequency_hz:.3g} Hz" if change.kind == "flutter" else ""
-        lines.append(f"    with the steering held, unstable from {acceleration(found.unstable_from)} on: {change.kind}{at}")
+        lines.append(
+            f"    with the steering held, unstable from {acceleration(found.unstable_from)} on: {change.kind}{at}"
+        )
     return [*lines, f"    ends: {found.family.end}"]

@@ -126,7 +126,7 @@ class SteadyFamily(Tabular):
         name = self.vehicle.info.name or type(self.vehicle).model_id()
         moved, unit = self[self.along], self.units[self.along]
         unit = "" if unit == "1" else f" {unit}"
-        first, last = (0.0 if abs(v) < STILL * np.abs(moved).max() else v for v in (moved[0], moved[-1]))
+        first, last = (0.0 if abs(v) < 1e-8 * np.abs(moved).max() else v for v in (moved[0], moved[-1]))
         lines = [f"{name}: {len(moved)} steady motions, {self.along} from {first:.5g} to {last:.5g}{unit}"]
         lines += [f"    {self.along} turns back at {value:.6g}{unit}" for value in self.folds]
         lines += [f"    another family crosses at {self.along} = {value:.6g}{unit}" for value in self.branches]
@@ -195,9 +195,7 @@ def steady_family(
     freed = (free,) if isinstance(free, str) else tuple(free)
     problem = Problem(vehicle, along, freed, hold or {})
     goal = problem.number(along, to)
-    limits = {
-        name: tuple(problem.number(name, side) for side in sides) for name, sides in (within or {}).items()
-    }
+    limits = {name: tuple(problem.number(name, side) for side in sides) for name, sides in (within or {}).items()}
     start = problem.start()
     first = problem.value(along, start)
     if goal == first:

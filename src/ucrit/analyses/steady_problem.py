@@ -46,8 +46,9 @@ class Problem:
         needed = len(self.hold) + 1
         if len(self.freed) != needed:
             extra = needed - movable
+            s = "s" * (extra != 1)
             raise UcritError(
-                f"{self.model}: {extra} input{'s' * (extra != 1)} or parameter{'s' * (extra != 1)} must be free to move "
+                f"{self.model}: {extra} input{s} or parameter{s} must be free to move "
                 f"{along}{' and hold ' + ', '.join(self.hold) if self.hold else ''}, got {', '.join(free) or 'none'}"
             )
         self._kept: tuple[bytes, tuple[Array, Array, Slopes]] | None = None
@@ -107,7 +108,7 @@ class Problem:
         return w, u, p
 
     def _slopes(self, y: Array) -> tuple[Array, Array, Slopes]:
-        """Return rates, outputs and slopes; those of the last unknowns are kept, as all tests of a point ask for them."""
+        """Return rates, outputs and slopes; those of the last unknowns are kept, all tests of a point ask for them."""
         key = y.tobytes() + bytes(y.ndim)
         if self._kept is None or self._kept[0] != key:
             w, u, p = self.split(y)
@@ -163,7 +164,7 @@ class Problem:
 
     def along_curve(self, points: Array, tangents: Array) -> tuple[dict[str, Array], dict[str, Array], Array]:
         """Return all quantities along a curve, their rates along it, and the state matrices."""
-        w, u, p = self.split(points)
+        w, u, _ = self.split(points)
         _, outputs, s = self._slopes(points)
         by_output = self._columns(s.C, s.D, s.F)
         values = dict(zip((*self.labels, *self.inputs, *self.outputs), (*w, *u, *outputs), strict=True))
@@ -184,7 +185,7 @@ class Problem:
             for n in self.freed
         ]
         y = np.array([*self.basic_w[self.used], *freed], dtype=float)
-        missed, jacobian = self.equations(y)
+        missed, _ = self.equations(y)
         here = missed[self.states :]
         if not np.isfinite(missed).all():
             raise UcritError(f"{self.model}: the basic motion is a singular point, from which no family sets out")
@@ -252,10 +253,13 @@ class Problem:
         }
         for name, (low, high) in (*bounds.items(), *limits.items()):
             if np.isfinite(low):
-                found[f"{name} is at its least, {low:g}"] = lambda y, n=name, v=low: self.value(n, y) - v
+                found[f"{name} is at its least, {low:g}"] = self._beyond(name, low, 1)
             if np.isfinite(high):
-                found[f"{name} is at its most, {high:g}"] = lambda y, n=name, v=high: v - self.value(n, y)
+                found[f"{name} is at its most, {high:g}"] = self._beyond(name, high, -1)
         return found
+
+    def _beyond(self, name: str, value: float, sense: int) -> Callable[[Array], float]:
+        return lambda y: sense * (self.value(name, y) - value)
 
     def words(self, curve: Curve) -> str:
         """Say why a curve ends."""

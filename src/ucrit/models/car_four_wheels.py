@@ -7,6 +7,7 @@ they did: results are good up to the first lift. The model ends at standstill, w
 """
 
 import math
+from types import MappingProxyType
 
 from ..core import Model, cos, input, maximum, output, param, sin, slot, speed, sqrt, state
 from ..parts.tires import slip_angle
@@ -71,9 +72,9 @@ class CarFourWheels(Model):
     even = ("v_x", "A_x", "omega_fl", "omega_fr", "omega_rl", "omega_rr", "drive", "brake_fl", "brake_fr", "brake_rl",
             "brake_rr", "a_x", "F_fl", "F_fr", "F_rl", "F_rr")  # fmt: skip
     sides = tuple((f"{kind}_{axle}l", f"{kind}_{axle}r") for kind in ("omega", "brake", "F") for axle in "fr")
-    keeps_speed = {"drive": "v_x"}
+    keeps_speed = MappingProxyType({"drive": "v_x"})
     wheel_loads = ("F_fl", "F_fr", "F_rl", "F_rr")
-    valid = {name: (0.0, math.inf) for name in wheel_loads}
+    valid = MappingProxyType(dict.fromkeys(wheel_loads, (0.0, math.inf)))
 
     def basic_motion(self):
         return {"x": {"v_x": self.U, **{f"omega_{wheel}": self.U / self.R for wheel in WHEELS}}}

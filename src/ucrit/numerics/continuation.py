@@ -221,9 +221,7 @@ class _Walk:
         y, jacobian, _ = solve(self.function, start, along, self.scale)
         self.found.append(Point(y, tangent_at(jacobian, along, self.scale) * self.scale, jacobian))
 
-    def go(
-        self, tests: Mapping[str, Test], stops: Mapping[str, Any], lengths: Sequence[float], points: int
-    ) -> Curve:
+    def go(self, tests: Mapping[str, Test], stops: Mapping[str, Any], lengths: Sequence[float], points: int) -> Curve:
         h, largest, smallest = lengths
         before = {name: test(self.found[0]) for name, test in tests.items()}
         for name, inside in stops.items():
