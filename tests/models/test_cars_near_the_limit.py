@@ -165,3 +165,12 @@ def test_a_turn_can_be_held_by_the_brakes_of_one_side():
     assert turn["brake_fl"][-1] > 0
     assert turn["r"][-1] < 0
     assert turn.stable.all()
+
+
+def test_formulas_with_conditions_are_well_formed():
+    from ucrit import show
+    from ucrit.report.formulas import formula
+
+    for part in show("car-handling").equations:
+        assert "&lt;" in part.mathml
+        assert "math" in formula(part.mathml)
