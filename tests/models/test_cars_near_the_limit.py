@@ -151,7 +151,7 @@ def test_a_braked_wheel_locks_and_a_driven_one_spins_up():
     car = load("four-wheel-car")
     assert simulate(car, 0.3, inputs={f"brake_{w}": 4000 for w in WHEELS}, tolerance=1e-6)["a_x"][-1] < -8
     slippery = car.with_(front_C_x=6e3)  # 1800 N m are all that the road can turn the wheel with
-    held = simulate(slippery, 0.4, inputs={"brake_fl": 3000}, tolerance=1e-6)
+    held = simulate(slippery, 0.15, inputs={"brake_fl": 3000}, tolerance=1e-4)
     assert abs(held["omega_fl"][-1]) < 0.5 < held["omega_fr"][-1]
     assert held["r"][-1] < 0  # the braked side pulls it round
     driven = simulate(car, 0.3, inputs={"drive": 2000}, tolerance=1e-6)
