@@ -21,7 +21,7 @@ from .declare import Quantity
 from .model import Model
 
 PACKAGE = Path(__file__).resolve().parent.parent
-DERIVING = ("core", "numerics", "analyses")
+DERIVING = ("core", "numerics", "bondgraph", "analyses")
 _memory: dict[tuple[type[Model], str], Any] = {}
 
 

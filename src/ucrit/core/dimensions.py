@@ -29,14 +29,14 @@ def check_dimensions(traced: Traced) -> None:
     free = {chain[0] for chain in traced.q[len(declared.variables) :]}
     where = traced.model.model_id()
     for number, residual in enumerate(traced.residuals, 1):
-        _dimension(residual.xreplace(dict.fromkeys(free, sp.S.Zero)), known, f"{where}: equation {number}")
+        dimension_of(residual.xreplace(dict.fromkeys(free, sp.S.Zero)), known, f"{where}: equation {number}")
     for output, expression in zip(declared.outputs.values(), traced.outputs, strict=True):
-        found = _dimension(expression, known, f"{where}: output {output.name}")
+        found = dimension_of(expression, known, f"{where}: output {output.name}")
         if found is not None and found != output.dimension:
             raise ModelError(f"{where}: output {output.name} is declared in {output.unit} but comes out in {found}")
 
 
-def _dimension(expression: Any, known: dict[Any, Dimension], where: str) -> Dimension | None:
+def dimension_of(expression: Any, known: dict[Any, Dimension], where: str) -> Dimension | None:
     """Return the dimension of an expression, ``None`` for zero, which fits anything."""
     if expression.is_zero:
         return None
@@ -44,7 +44,7 @@ def _dimension(expression: Any, known: dict[Any, Dimension], where: str) -> Dime
         return known[expression]
     if expression.is_number:
         return NUMBER
-    parts = [_dimension(argument, known, where) for argument in expression.args]
+    parts = [dimension_of(argument, known, where) for argument in expression.args]
     if expression.is_Mul:
         total = NUMBER
         for part in parts:

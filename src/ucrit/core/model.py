@@ -93,7 +93,7 @@ class Model:
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        cls.declaration = _declare(cls)
+        cls.declaration = declared(cls)
         _check_methods(cls)
         cls.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
             [
@@ -231,7 +231,8 @@ class _Found:
         return MappingProxyType({k: v for k, v in self.by_name.items() if isinstance(v, kind)})
 
 
-def _declare(cls: type[Model]) -> Declaration:
+def declared(cls: type[Model]) -> Declaration:
+    """Collect what a class and its bases declare."""
     found = _Found()
     for base in reversed(cls.__mro__):
         for name, value in vars(base).items():

@@ -3,6 +3,7 @@
 theta is positive when the trailer's rear swings to the left; the axle lies a + b behind the hitch.
 """
 
+from ..bondgraph import C, Graph, R, Sf, bodies, equations_bond_graph, f, one, q, running_gear
 from ..core import Model, coordinate, cos, param, sin, speed
 from ..parts.tires import linear_side_force, slip_angle
 
@@ -41,6 +42,30 @@ class Trailer(Model):
             (linear_side_force(self.C, slip_angle(lateral, longitudinal)), lateral),
             (-self.c * dx.theta, dx.theta),
         )
+
+    def bond_graph(self):
+        theta = q("theta")
+        along = f("road") * cos(theta) - f("x") * sin(theta)
+        return Graph(
+            Sf("speed", self.U),
+            one("road"),
+            "speed -> road",
+            one("x"),
+            C("hitch", 1 / self.k),
+            "x -> hitch",
+            bodies.swinging_body(self.m, self.I_c, self.a, ahead="road", left="x"),
+            R("damper", self.c),
+            "theta -> damper",
+            running_gear.axle(
+                "axle",
+                lambda v: linear_side_force(self.C, slip_angle(v, along)),
+                road=sin(theta),
+                x=cos(theta),
+                theta=self.a + self.b,
+            ),
+        )
+
+    equations_bond_graph = equations_bond_graph
 
     def equations_newton(self, x, dx, ddx):
         lateral, longitudinal = self.axle_velocity(x, dx)

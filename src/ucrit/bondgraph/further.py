@@ -1,0 +1,140 @@
+"""A bond graph as a further derivation of a model that is stated in velocities and positions.
+
+Momenta and displacements are put as functions of the model's own variables, ``p = m*V``; what the graph says about
+their rates is then an equation of motion in these variables.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import sympy as sp
+
+from ..core.errors import ModelError
+from ..core.model import Names
+from .assignments import Store, effort, flow
+from .equations import StateEquations, _settled, state_equations
+from .graph import Graph
+from .laws import solve_linear
+
+
+def further_equations(where: str, graph: Graph, x: Names, dx: Names, ddx: Names, u: Names) -> list[Any]:
+    """Return the equations of motion of a graph in a model's variables; see `equations_bond_graph`."""
+    found = state_equations(graph, tuple(_values(u).values()))
+    return _Bridge(where, graph, found, x, dx, ddx).residuals()
+
+
+class _Bridge:
+    """Relates the states of a graph to the variables of a model."""
+
+    def __init__(
+        self, where: str, graph: Graph, found: StateEquations, x: Names, dx: Names, ddx: Names
+    ) -> None:
+        self.where, self.graph, self.found = where, graph, found
+        self.x, self.dx, self.ddx = (_values(group) for group in (x, dx, ddx))
+        self.known: dict[Any, Any] = {}
+        self.wholes = [s for s in found.stores if s.integral]
+
+    def residuals(self) -> list[Any]:
+        """Return the equations that are left when those that only say what is known are dropped."""
+        self._match_states()
+        self._match_flows()
+        self._displacements()
+        self.known |= {s.state: self._state(s) for s in self.wholes}
+        given = [self._put(s.given) for s in self.wholes]
+        equations = [self._rate(self._state(s)) - g for s, g in zip(self.wholes, given, strict=True)]
+        dependent = {
+            s.output: self._rate(self._put(s.law)) for s in self.found.stores if not s.integral
+        }
+        equations = [eq.xreplace(dependent) for eq in equations]
+        left = [eq for eq in equations if eq != 0 and sp.simplify(eq) != 0]
+        if len(left) != len(self.x):
+            raise ModelError(
+                f"{self.where}: the bond graph gives {len(left)} equations for {len(self.x)} variables; junctions and "
+                "stores must be named like the model's variables"
+            )
+        return left
+
+    def _match_states(self) -> None:
+        """Stores and junctions named like the model's variables: what is known of totals, springs and inertias."""
+        for total in self.found.totals:
+            name = total.element.name
+            if name not in self.dx or name not in self.ddx:
+                raise ModelError(f"{self.where}: the bond graph reads {total.name}, and '{name}' is no coordinate")
+            self.known[total.state] = self.x[name]
+        for s in self.wholes:
+            name = s.element.name + s.suffix
+            if name in self.x and name not in self.ddx:
+                self.known[s.state] = self.x[name]
+                self.known[s.output] = s.law.xreplace(self.known)
+
+    def _match_flows(self) -> None:
+        """Solve for the outputs of stores: junctions named like the model's variables have these as flow or effort."""
+        equations = []
+        for element in self.graph.elements:
+            if element.kind in ("0", "1") and element.name in self.x:
+                bond = self.graph.bonds_at[element.name][0]
+                common = flow(bond) if element.kind == "1" else effort(bond)
+                value = (self.dx if element.name in self.ddx else self.x)[element.name]
+                equations.append(self._put(common) - value)
+        unknown = [s.output for s in self.wholes if s.output not in self.known]
+        equations = [eq for eq in equations if eq.free_symbols & set(unknown)]
+        unknown = [o for o in unknown if any(eq.has(o) for eq in equations)]
+        if len(equations) != len(unknown):
+            raise ModelError(
+                f"{self.where}: the bond graph shares {len(equations)} flows and efforts with the model's variables, "
+                f"and {len(unknown)} are needed ({', '.join(self._owners(unknown))})"
+            )
+        solved = solve_linear(*sp.linear_eq_to_matrix(equations, unknown)) if unknown else []
+        if solved is None:
+            raise ModelError(f"{self.where}: the flows of the bond graph do not follow from the model's variables")
+        self.known |= dict(zip(unknown, solved, strict=True))
+
+    def _owners(self, outputs: list[Any]) -> list[str]:
+        return [str(s.element) for s in self.wholes if s.output in outputs]
+
+    def _displacements(self) -> None:
+        """Displacements of springs between the model's coordinates, their flows added up over time."""
+        for s in self.wholes:
+            if s.state in self.known or s.output in self.known:
+                continue
+            rate = sp.expand(self._put(s.given))
+            parts = {name: sp.diff(rate, self.dx[name]) for name in self.ddx}
+            rest = rate - sp.Add(*(c * self.dx[name] for name, c in parts.items()))
+            moving = {*self.x.values(), *self.dx.values()}
+            if sp.expand(rest) != 0 or any(c.free_symbols & moving for c in parts.values()):
+                raise ModelError(
+                    f"{self.where}: the displacement of {s.element} is no sum of the model's coordinates; "
+                    "name it like a state of the model"
+                )
+            self.known[s.state] = sp.Add(*(c * self.x[name] for name, c in parts.items()))
+            self.known[s.output] = s.law.xreplace(self.known)
+
+    def _put(self, symbol: Any) -> Any:
+        """Return a variable of the graph in variables of the model, as far as they are known."""
+        return _settled(_settled(symbol, self.found.raw, {}), {}, self.known)
+
+    def _state(self, store: Store) -> Any:
+        """Return momentum or displacement of a store as a function of the model's variables."""
+        if store.state in self.known:
+            return self.known[store.state]
+        law = store.element.law
+        assert law is not None
+        bonds = self.graph.bonds_at[store.element.name]
+        taken = [self._put(flow(b) if store.element.kind == "I" else effort(b)) for b in bonds]
+        states = [s.state for s in self.found.stores if s.element == store.element]
+        if law.gives in ("momentum", "displacement"):
+            return law.solved(str(store.element), [False] * law.ports, taken, states)[store.port - 1]
+        outputs = [sp.Dummy() for _ in bonds]
+        found = law.solved(str(store.element), [True] * law.ports, states, outputs)
+        return found[store.port - 1].xreplace(dict(zip(outputs, taken, strict=True)))
+
+    def _rate(self, expression: Any) -> Any:
+        """Differentiate along the motion."""
+        steps = [(self.x[n], self.dx[n]) for n in self.x if n in self.dx]
+        steps += [(self.dx[n], self.ddx[n]) for n in self.ddx]
+        return sp.Add(*(sp.diff(expression, low) * high for low, high in steps))
+
+
+def _values(group: Names) -> dict[str, Any]:
+    return {name: value for name, value in vars(group).items() if name != "_group"}
