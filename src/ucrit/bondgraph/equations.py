@@ -55,8 +55,6 @@ class StateEquations:
         Stores without a state of their own, and algebraic loops; both are solved.
     stores, totals
         What the states belong to.
-    raw
-        Efforts and flows before the outputs of stores were replaced by functions of the states.
     """
 
     causality: Causality
@@ -69,7 +67,6 @@ class StateEquations:
     loops: tuple[Loop, ...]
     stores: tuple[Store, ...]
     totals: tuple[Total, ...]
-    raw: Mapping[Any, Any]
 
     @property
     def graph(self) -> Graph:
@@ -86,6 +83,13 @@ class StateEquations:
 
     def __str__(self) -> str:
         return "\n".join(f"{name}' = {rate}" for name, rate in zip(self.states, self.rates, strict=True))
+
+
+@lru_cache(maxsize=64)
+def assembled(graph: Graph) -> tuple[Assignments, dict[Any, Any], list[Loop]]:
+    """Return what each bond's ends set, every effort and flow in outputs of stores and sources, and the loops."""
+    work = assignments(causality(graph))
+    return work, *put_together(work)
 
 
 @lru_cache(maxsize=64)
@@ -112,20 +116,18 @@ def state_equations(graph: Graph, inputs: tuple[Any, ...] = ()) -> StateEquation
     p_mass' = -q_spring/3
     q_spring' = p_mass/2
     """
-    found = causality(graph)
-    work = assignments(found)
-    raw, loops = put_together(work)
+    work, raw, loops = assembled(graph)
     outputs = {s.output: s.law for s in work.stores if s.integral}
     # what a store gives may depend on signals, and with fields of mixed causality on bonds
-    outputs = {o: _settled(x, raw, outputs) for o, x in outputs.items()}
-    values = {symbol: _settled(x, raw, outputs) for symbol, x in raw.items()}
+    outputs = {o: settled(x, raw, outputs) for o, x in outputs.items()}
+    values = {symbol: settled(x, raw, outputs) for symbol, x in raw.items()}
     wholes = [s for s in work.stores if s.integral]
     symbols = [s.state for s in wholes] + [t.state for t in work.totals]
     rates = [values[s.given] for s in wholes] + [values[t.rate] for t in work.totals]
     solved, dependences = _dependent(work, values, dict(zip(symbols, rates, strict=True)), inputs)
-    final = {symbol: tidy(x.xreplace(solved)) for symbol, x in values.items()}
+    final = {symbol: x.xreplace(solved) for symbol, x in values.items()}
     return StateEquations(
-        found,
+        work.causality,
         tuple(s.name for s in (*wholes, *work.totals)),
         tuple(symbols),
         tuple(tidy(rate.xreplace(solved)) for rate in rates),
@@ -135,11 +137,10 @@ def state_equations(graph: Graph, inputs: tuple[Any, ...] = ()) -> StateEquation
         tuple(loops),
         tuple(work.stores),
         tuple(work.totals),
-        raw,
     )
 
 
-def _settled(x: Any, raw: Mapping[Any, Any], outputs: Mapping[Any, Any]) -> Any:
+def settled(x: Any, raw: Mapping[Any, Any], outputs: Mapping[Any, Any]) -> Any:
     """Replace variables of bonds and outputs of stores until none is left."""
     swap = {**raw, **outputs}
     for _ in range(len(swap) + 1):

@@ -13,27 +13,26 @@ import sympy as sp
 from ..core.errors import ModelError
 from ..core.model import Names
 from .assignments import Store, effort, flow
-from .equations import StateEquations, _settled, state_equations
+from .equations import assembled, settled
 from .graph import Graph
-from .laws import solve_linear
+from .laws import is_zero
 
 
-def further_equations(where: str, graph: Graph, x: Names, dx: Names, ddx: Names, u: Names) -> list[Any]:
+def further_equations(where: str, graph: Graph, x: Names, dx: Names, ddx: Names) -> list[Any]:
     """Return the equations of motion of a graph in a model's variables; see `equations_bond_graph`."""
-    found = state_equations(graph, tuple(_values(u).values()))
-    return _Bridge(where, graph, found, x, dx, ddx).residuals()
+    return _Bridge(where, graph, x, dx, ddx).residuals()
 
 
 class _Bridge:
     """Relates the states of a graph to the variables of a model."""
 
-    def __init__(
-        self, where: str, graph: Graph, found: StateEquations, x: Names, dx: Names, ddx: Names
-    ) -> None:
-        self.where, self.graph, self.found = where, graph, found
+    def __init__(self, where: str, graph: Graph, x: Names, dx: Names, ddx: Names) -> None:
+        self.where, self.graph = where, graph
+        self.found, self.raw, _ = assembled(graph)
         self.x, self.dx, self.ddx = (_values(group) for group in (x, dx, ddx))
         self.known: dict[Any, Any] = {}
-        self.wholes = [s for s in found.stores if s.integral]
+        self.constraints: list[Any] = []
+        self.wholes = [s for s in self.found.stores if s.integral]
 
     def residuals(self) -> list[Any]:
         """Return the equations that are left when those that only say what is known are dropped."""
@@ -47,7 +46,7 @@ class _Bridge:
             s.output: self._rate(self._put(s.law)) for s in self.found.stores if not s.integral
         }
         equations = [eq.xreplace(dependent) for eq in equations]
-        left = [eq for eq in equations if eq != 0 and sp.simplify(eq) != 0]
+        left = [eq for eq in equations if not is_zero(eq)] + self.constraints
         if len(left) != len(self.x):
             raise ModelError(
                 f"{self.where}: the bond graph gives {len(left)} equations for {len(self.x)} variables; junctions and "
@@ -78,17 +77,26 @@ class _Bridge:
                 value = (self.dx if element.name in self.ddx else self.x)[element.name]
                 equations.append(self._put(common) - value)
         unknown = [s.output for s in self.wholes if s.output not in self.known]
-        equations = [eq for eq in equations if eq.free_symbols & set(unknown)]
-        unknown = [o for o in unknown if any(eq.has(o) for eq in equations)]
-        if len(equations) != len(unknown):
+        for equation in equations:
+            rest = sp.expand(self._put(equation))
+            pivot = next((o for o in unknown if o not in self.known and rest.has(o)), None)
+            if pivot is not None:
+                slope = sp.diff(rest, pivot)
+                if slope.has(pivot):
+                    raise ModelError(f"{self.where}: {self._owners([pivot])[0]} is not a linear part of the flows")
+                solved = {pivot: sp.factor_terms(-rest.xreplace({pivot: sp.S.Zero}) / slope)}
+                self.known = {k: sp.sympify(x).xreplace(solved) for k, x in self.known.items()} | solved
+            elif not is_zero(rest):
+                self.constraints.append(rest)
+        open_ = [o for o in unknown if o not in self.known and self._is_inertia(o)]
+        if open_:
             raise ModelError(
-                f"{self.where}: the bond graph shares {len(equations)} flows and efforts with the model's variables, "
-                f"and {len(unknown)} are needed ({', '.join(self._owners(unknown))})"
+                f"{self.where}: no junction of the bond graph that is named like a variable of the model settles "
+                f"the flow of {', '.join(self._owners(open_))}"
             )
-        solved = solve_linear(*sp.linear_eq_to_matrix(equations, unknown)) if unknown else []
-        if solved is None:
-            raise ModelError(f"{self.where}: the flows of the bond graph do not follow from the model's variables")
-        self.known |= dict(zip(unknown, solved, strict=True))
+
+    def _is_inertia(self, output: Any) -> bool:
+        return any(s.output == output and s.element.kind == "I" for s in self.wholes)
 
     def _owners(self, outputs: list[Any]) -> list[str]:
         return [str(s.element) for s in self.wholes if s.output in outputs]
@@ -98,7 +106,8 @@ class _Bridge:
         for s in self.wholes:
             if s.state in self.known or s.output in self.known:
                 continue
-            rate = sp.expand(self._put(s.given))
+            shared = [n for n in (s.bond.tail, s.bond.head) if n in self.ddx and self.graph.by_name[n].kind == "1"]
+            rate = self.dx[shared[0]] if shared and s.element.kind == "C" else sp.expand(self._put(s.given))
             parts = {name: sp.diff(rate, self.dx[name]) for name in self.ddx}
             rest = rate - sp.Add(*(c * self.dx[name] for name, c in parts.items()))
             moving = {*self.x.values(), *self.dx.values()}
@@ -112,7 +121,7 @@ class _Bridge:
 
     def _put(self, symbol: Any) -> Any:
         """Return a variable of the graph in variables of the model, as far as they are known."""
-        return _settled(_settled(symbol, self.found.raw, {}), {}, self.known)
+        return settled(settled(symbol, self.raw, {}), {}, self.known)
 
     def _state(self, store: Store) -> Any:
         """Return momentum or displacement of a store as a function of the model's variables."""

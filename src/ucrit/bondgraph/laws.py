@@ -190,9 +190,33 @@ def solve_linear(A: Any, b: Any) -> list[Any] | None:
     """Return the solution of a small linear system, ``None`` where its determinant is zero."""
     import sympy as sp
 
-    determinant = sp.factor_terms(sp.expand(A.det(method="berkowitz")))
-    if determinant == 0 or sp.simplify(determinant) == 0:
+    determinant = sp.expand(A.det(method="berkowitz"))
+    if is_zero(determinant):
         return None
     if A.rows == 1:
         return [sp.factor_terms(b[0] / determinant)]
     return [sp.factor_terms(x) / determinant for x in A.adjugate() * b]
+
+
+def is_zero(expression: Any) -> bool:
+    """Tell whether an expression vanishes whatever its symbols, from its values at points taken at random.
+
+    Thirty digits are computed, and more where terms cancel; that another expression than zero vanishes at all three
+    points has no chance worth naming.
+    """
+    import random
+
+    import sympy as sp
+
+    expression = sp.sympify(expression)
+    if expression.is_number or not expression.free_symbols:
+        return bool(sp.simplify(expression) == 0)
+    rng = random.Random(str(expression))
+    symbols = sorted(expression.free_symbols, key=str)
+    for _ in range(3):
+        point = {s: sp.Rational(rng.randint(10**8, 10**9), 10**9) for s in symbols}
+        value = expression.subs(point)
+        size = abs(sp.Add(*map(abs, value.args)) if value.is_Add else value)
+        if abs(value.evalf(30)) > 1e-20 * max(1, size.evalf(30)):
+            return False
+    return True

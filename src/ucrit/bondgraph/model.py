@@ -68,7 +68,7 @@ def equations_bond_graph(self: Any, x: Any, dx: Any, ddx: Any, u: Any) -> list[A
     """
     from .further import further_equations
 
-    return further_equations(type(self).model_id(), _graph(self, {"u": u}), x, dx, ddx, u)
+    return further_equations(type(self).model_id(), _graph(self, {"u": u}), x, dx, ddx)
 
 
 DERIVED = ("momentum of ", "displacement of ")

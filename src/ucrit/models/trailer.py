@@ -45,7 +45,6 @@ class Trailer(Model):
 
     def bond_graph(self):
         theta = q("theta")
-        along = f("road") * cos(theta) - f("x") * sin(theta)
         return Graph(
             Sf("speed", self.U),
             one("road"),
@@ -56,14 +55,12 @@ class Trailer(Model):
             bodies.swinging_body(self.m, self.I_c, self.a, ahead="road", left="x"),
             R("damper", self.c),
             "theta -> damper",
-            running_gear.axle(
-                "axle",
-                lambda v: linear_side_force(self.C, slip_angle(v, along)),
-                road=sin(theta),
-                x=cos(theta),
-                theta=self.a + self.b,
-            ),
+            running_gear.velocity("axle", road=sin(theta), x=cos(theta), theta=self.a + self.b),
+            self.tire("axle", f("road") * cos(theta) - f("x") * sin(theta)),
         )
+
+    def tire(self, at, along):
+        return running_gear.tire(at, lambda v: linear_side_force(self.C, slip_angle(v, along)))
 
     equations_bond_graph = equations_bond_graph
 
