@@ -12,8 +12,10 @@ import sympy as sp
 
 from ..core.errors import ModelError
 from ..core.model import Names
-from .assignments import Store, effort, flow
-from .equations import assembled, settled
+from .algebra import put_together
+from .assignments import Store, assignments, effort, flow
+from .causality import causality
+from .equations import settled
 from .graph import Graph
 from .laws import is_zero
 
@@ -28,11 +30,29 @@ class _Bridge:
 
     def __init__(self, where: str, graph: Graph, x: Names, dx: Names, ddx: Names) -> None:
         self.where, self.graph = where, graph
-        self.found, self.raw, _ = assembled(graph)
+        self.found = assignments(causality(graph))
         self.x, self.dx, self.ddx = (_values(group) for group in (x, dx, ddx))
         self.known: dict[Any, Any] = {}
         self.constraints: list[Any] = []
+        self.shared = self._share()
+        self.raw, _ = put_together(self.found)
         self.wholes = [s for s in self.found.stores if s.integral]
+
+    def _share(self) -> list[Any]:
+        """Put the model's variables for what the junctions named like them have in common.
+
+        Returns what is zero because the graph says otherwise what it is.
+        """
+        equations = []
+        for element in self.graph.elements:
+            if element.kind in ("0", "1") and element.name in self.x:
+                common = flow if element.kind == "1" else effort
+                value = (self.dx if element.name in self.ddx else self.x)[element.name]
+                for bond in self.graph.bonds_at[element.name]:
+                    if self.found.causality.effort_in(element.name, bond) == (element.kind == "0"):
+                        equations.append(self.found.of[common(bond)] - value)
+                        self.found.of[common(bond)] = sp.sympify(value)
+        return equations
 
     def residuals(self) -> list[Any]:
         """Return the equations that are left when those that only say what is known are dropped."""
@@ -69,15 +89,8 @@ class _Bridge:
 
     def _match_flows(self) -> None:
         """Solve for the outputs of stores: junctions named like the model's variables have these as flow or effort."""
-        equations = []
-        for element in self.graph.elements:
-            if element.kind in ("0", "1") and element.name in self.x:
-                bond = self.graph.bonds_at[element.name][0]
-                common = flow(bond) if element.kind == "1" else effort(bond)
-                value = (self.dx if element.name in self.ddx else self.x)[element.name]
-                equations.append(self._put(common) - value)
         unknown = [s.output for s in self.wholes if s.output not in self.known]
-        for equation in equations:
+        for equation in self.shared:
             rest = sp.expand(self._put(equation))
             pivot = next((o for o in unknown if o not in self.known and rest.has(o)), None)
             if pivot is not None:

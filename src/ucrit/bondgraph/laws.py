@@ -201,22 +201,22 @@ def solve_linear(A: Any, b: Any) -> list[Any] | None:
 def is_zero(expression: Any) -> bool:
     """Tell whether an expression vanishes whatever its symbols, from its values at points taken at random.
 
-    Thirty digits are computed, and more where terms cancel; that another expression than zero vanishes at all three
-    points has no chance worth naming.
+    Forty digits are computed; that anything but zero vanishes at all three points has no chance worth naming.
     """
     import random
 
+    import mpmath
     import sympy as sp
 
     expression = sp.sympify(expression)
-    if expression.is_number or not expression.free_symbols:
-        return bool(sp.simplify(expression) == 0)
-    rng = random.Random(str(expression))
     symbols = sorted(expression.free_symbols, key=str)
-    for _ in range(3):
-        point = {s: sp.Rational(rng.randint(10**8, 10**9), 10**9) for s in symbols}
-        value = expression.subs(point)
-        size = abs(sp.Add(*map(abs, value.args)) if value.is_Add else value)
-        if abs(value.evalf(30)) > 1e-20 * max(1, size.evalf(30)):
-            return False
+    if not symbols:
+        return bool(sp.simplify(expression) == 0)
+    terms = sp.lambdify(symbols, list(sp.Add.make_args(expression)), "mpmath", cse=True)
+    rng = random.Random(len(symbols))
+    with mpmath.workdps(40):
+        for _ in range(3):
+            values = terms(*(mpmath.mpf(rng.uniform(0.1, 1)) for _ in symbols))
+            if abs(mpmath.fsum(values)) > mpmath.mpf(10) ** -25 * mpmath.fsum(map(abs, values)):
+                return False
     return True
