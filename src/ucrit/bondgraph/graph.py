@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -116,15 +116,20 @@ class Graph:
         """Raise `ModelError` for bonds that lead nowhere, wrong numbers of bonds and wrong directions."""
         if not self.elements:
             raise ModelError("bond graph: there is no element")
+        for _, fault in self.faults():
+            raise ModelError(fault)
+
+    def faults(self) -> Iterator[tuple[Element | Bond, str]]:
+        """Find what is wrong with elements and bonds, a sentence each; what comes later may follow from the first."""
         for bond in self.bonds:
             for name in (bond.tail, bond.head):
                 if name not in self.by_name:
-                    raise ModelError(f"bond {bond}: there is no element '{name}'{near_match(name, self.by_name)}")
+                    yield bond, f"bond {bond}: there is no element '{name}'{near_match(name, self.by_name)}"
             if bond.tail == bond.head:
-                raise ModelError(f"bond {bond}: it joins an element to itself")
+                yield bond, f"bond {bond}: it joins an element to itself"
         for element in self.elements:
-            _check_bonds(element, self.bonds_at[element.name])
-            _check_readings(self, element)
+            for fault in (*_bond_faults(element, self.bonds_at[element.name]), *_reading_faults(self, element)):
+                yield element, f"{element}{fault}"
 
 
 def _chain(text: Any) -> list[tuple[str, str]]:
@@ -134,37 +139,37 @@ def _chain(text: Any) -> list[tuple[str, str]]:
     return [(names[i], names[i + 1]) for i in range(len(names) - 1)]
 
 
-def _check_bonds(element: Element, bonds: tuple[Bond, ...]) -> None:
+def _bond_faults(element: Element, bonds: tuple[Bond, ...]) -> Iterator[str]:
     numbers = ", ".join(str(b.number) for b in bonds)
     if not bonds:
-        raise ModelError(f"{element}: no bond leads to it")
-    if element.kind in TWO_PORTS:
+        yield ": no bond leads to it"
+    elif element.kind in TWO_PORTS:
         heads = sum(b.head == element.name for b in bonds)
         if len(bonds) != 2 or heads != 1:
-            raise ModelError(f"{element}: one bond must lead to it and one away from it, it has the bonds {numbers}")
+            yield f": one bond must lead to it and one away from it, it has bonds {numbers}"
     elif element.kind not in JUNCTIONS:
         ports = element.law.ports if element.law else 1
         if len(bonds) != ports:
-            raise ModelError(f"{element}: its law has {ports} ports, it has the bonds {numbers}")
+            yield f": its law has {ports} port{'s' * (ports > 1)}, it has bonds {numbers}"
         away = [b for b in bonds if b.tail == element.name]
         if away and element.kind not in SOURCES:
-            raise ModelError(f"{element}: bond {away[0]} must lead to it, so that power into it counts as positive")
+            yield f": bond {away[0]} must lead to it, so that power into it counts as positive"
 
 
-def _check_readings(graph: Graph, element: Element) -> None:
+READABLE = {"0": "e and p", "1": "f and q", "I": "e, f and p", "C": "e, f and q", "TF": "nothing", "GY": "nothing"}
+
+
+def _reading_faults(graph: Graph, element: Element) -> Iterator[str]:
     for symbol in element.law.reads if element.law else ():
         variable, name, port = split(symbol)
         if name not in graph.by_name:
-            raise ModelError(f"{element} reads {symbol}: there is no element '{name}'{near_match(name, graph.by_name)}")
+            yield f" reads {symbol}: there is no element '{name}'{near_match(name, graph.by_name)}"
+            continue
         source = graph.by_name[name]
-        kind, ports = source.kind, source.law.ports if source.law and source.kind not in TWO_PORTS else 1
-        junction = {"e": "0", "p": "0", "f": "1", "q": "1"}[variable]
-        store = {"p": "I", "q": "C"}.get(variable)
-        one_port = kind not in (*JUNCTIONS, *TWO_PORTS) and store in (None, kind)
-        if not (one_port or kind == junction):
-            has = {"0": "e and p", "1": "f and q", "I": "e, f and p", "C": "e, f and q"}.get(kind, "e and f")
-            has = "nothing" if kind in TWO_PORTS else has
-            raise ModelError(f"{element} reads {symbol}: of {source}, {has} can be read")
-        if (port is None) != (ports == 1) or (port is not None and not 1 <= port <= ports):
-            wanted = f"{variable}.{name}" if ports == 1 else f"one of {variable}.{name}.1 to {variable}.{name}.{ports}"
-            raise ModelError(f"{element} reads {symbol}: {source} has {ports} ports, write {wanted}")
+        readable = READABLE.get(source.kind, "e and f")
+        ports = source.law.ports if source.law and source.kind not in TWO_PORTS else 1
+        if variable not in readable.replace("and", "").replace(",", "").split():
+            yield f" reads {symbol}: of {source}, {readable} can be read"
+        elif (port is None) != (ports == 1) or (port is not None and port > ports) or port == 0:
+            wanted = f"{variable}.{name}" + ("" if ports == 1 else f".1 to {variable}.{name}.{ports}")
+            yield f" reads {symbol}: {source} has {ports} port{'s' * (ports > 1)}, write {wanted}"

@@ -39,7 +39,7 @@ class BondGraphModel(Model):
             for name, value in vars(base).items():
                 if isinstance(value, Variable) and value.meaning.startswith(DERIVED) and name not in vars(cls):
                     setattr(cls, name, None)
-        if hasattr(cls, "bond_graph"):
+        if hasattr(cls, "bond_graph") and cls.__name__ != "_FromText":
             _declare_states(cls)
         super().__init_subclass__(**options)
 
@@ -69,6 +69,52 @@ def equations_bond_graph(self: Any, x: Any, dx: Any, ddx: Any, u: Any) -> list[A
     from .further import further_equations
 
     return further_equations(type(self).model_id(), _graph(self, {"u": u}), x, dx, ddx)
+
+
+def model_from_text(text: str, name: str = "BondGraph", where: str = "bond graph") -> type[BondGraphModel]:
+    """Return the model that a bond graph's text describes; see `ucrit.bondgraph.text`.
+
+    Parameters
+    ----------
+    text
+        Declarations, elements and bonds, one a line.
+    name
+        Name for the class.
+    where
+        What to call the text in messages.
+
+    Raises
+    ------
+    ModelError
+        Naming the line or the elements that are wrong.
+
+    Examples
+    --------
+    >>> model = model_from_text("param m [kg] above 0: mass\\n1 x\\nI mass = m\\nR drag = 2*m\\nx -> mass\\nx -> drag")
+    >>> list(model.declaration.variables)
+    ['p_mass']
+    """
+    from .text import read_sheet
+
+    sheet = read_sheet(text, where)
+    declared = {**sheet.parameters, **sheet.inputs}
+    about = {"__doc__": sheet.title or name, "text": text, "where": where}
+    return type(name, (_FromText,), {**about, **declared})
+
+
+class _FromText(BondGraphModel):
+    """Model of a text: what it declares, and the graph read again whenever it is traced."""
+
+    text = ""
+    where = "bond graph"
+
+    def bond_graph(self, u: Any) -> Graph:
+        """Return the graph of the text."""
+        from .text import read_sheet
+
+        sheet = read_sheet(self.text, self.where)
+        names = {name: getattr(self, name) for name in sheet.parameters}
+        return sheet.graph(names | {name: getattr(u, name) for name in sheet.inputs})
 
 
 DERIVED = ("momentum of ", "displacement of ")
