@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.analyze import analyze as analyze
     from .analyses.approximation import approximation as approximation
+    from .analyses.bonds import bonds as bonds
+    from .analyses.bonds import power_flow as power_flow
     from .analyses.compare import compare as compare
     from .analyses.convert import to_control as to_control
     from .analyses.convert import to_scipy as to_scipy
@@ -106,6 +108,8 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "steady_turn": "analyses.steady",
     "transfer": "analyses.transfer",
     "trim": "analyses.trim",
+    "bonds": "analyses.bonds",
+    "power_flow": "analyses.bonds",
     "show": "analyses.show",
     "list": ("analyses.listing", "listing"),
     "new": ("analyses.listing", "template"),

@@ -17,6 +17,8 @@ from .core.model import Model
 
 HERE = Path(__file__).resolve().parent
 VEHICLES = HERE / "data" / "vehicles"
+BONDS = ".bonds"
+"""Ending of files that hold a bond graph as text."""
 PUBLISHED = HERE / "data" / "published"
 
 
@@ -42,11 +44,13 @@ def vehicle_names() -> tuple[str, ...]:
 
 
 def find_model(name: str, folder: Path | None = None) -> type[Model]:
-    """Return a model class by its catalogue name, or from a Python file (``"my_model.py"``).
+    """Return a model class by its catalogue name, from a Python file or from a bond graph's (``"my_graph.bonds"``).
 
     A file may hold several models: ``"my_model.py:Caster"`` picks one. Relative paths start at ``folder``.
     """
     path, _, cls = name.partition(":") if ".py" in name else (name, "", "")
+    if path.endswith(BONDS):
+        return model_from_file((folder or Path()) / path, path)
     if path.endswith(".py"):
         return _from_file((folder or Path()) / path, cls)
     key = name.replace("_", "-")
@@ -54,6 +58,14 @@ def find_model(name: str, folder: Path | None = None) -> type[Model]:
         raise UcritError(f"there is no model '{name}'{near_match(name, model_names())}")
     module = importlib.import_module(f"ucrit.models.{key.replace('-', '_')}")
     return models_in(module)[0]
+
+
+def model_from_file(path: Path, where: str) -> type[Model]:
+    """Return the model that a bond graph's text file describes; ``where`` names it in messages."""
+    from .bondgraph.model import model_from_text
+
+    text, stem = read_text(path), path.stem.replace("-", "_")
+    return model_from_text(text, stem if stem.isidentifier() else "BondGraph", where)
 
 
 def models_in(module: ModuleType) -> list[type[Model]]:

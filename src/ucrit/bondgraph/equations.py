@@ -12,7 +12,6 @@ from functools import lru_cache
 from typing import Any
 
 import sympy as sp
-from sympy.solvers.solveset import NonlinearError
 
 from ..core.errors import ModelError
 from .algebra import Loop, put_together
@@ -175,11 +174,9 @@ def _dependent(
         residuals.append(sp.Add(*(sp.diff(y, s) * rate for s, rate in rates.items())) - store.output)
         sources = [of_state[s].element for s in rates if y.has(s) and s in of_state]
         dependences.append(Dependence(store.element, store.bond, tuple(dict.fromkeys(map(str, sources))), y))
-    try:
-        A, b = sp.linear_eq_to_matrix([sp.expand(r) for r in residuals], unknowns)
-    except NonlinearError:
-        A = None
-    found = None if A is None else solve_linear(A, b)
+    A = sp.Matrix(len(unknowns), len(unknowns), lambda i, j: sp.diff(residuals[i], unknowns[j]))
+    b = sp.Matrix([-r.xreplace(dict.fromkeys(unknowns, sp.S.Zero)) for r in residuals])
+    found = None if A.free_symbols & set(unknowns) else solve_linear(A, b)
     if found is None:
         names = ", ".join(str(s.element) for s in stores)
         raise ModelError(f"{names}: in derivative causality, and the equations cannot be solved for their rates")

@@ -25,6 +25,11 @@ def further_equations(where: str, graph: Graph, x: Names, dx: Names, ddx: Names)
     return _Bridge(where, graph, x, dx, ddx).residuals()
 
 
+def graph_states(where: str, graph: Graph, x: Names, dx: Names, ddx: Names) -> dict[Any, Any]:
+    """Return the momenta and displacements of a graph as functions of a model's variables, by their symbols."""
+    return _Bridge(where, graph, x, dx, ddx).states()
+
+
 class _Bridge:
     """Relates the states of a graph to the variables of a model."""
 
@@ -56,10 +61,7 @@ class _Bridge:
 
     def residuals(self) -> list[Any]:
         """Return the equations that are left when those that only say what is known are dropped."""
-        self._match_states()
-        self._match_flows()
-        self._displacements()
-        self.known |= {s.state: self._state(s) for s in self.wholes}
+        self.states()
         given = [self._put(s.given) for s in self.wholes]
         equations = [self._rate(self._state(s)) - g for s, g in zip(self.wholes, given, strict=True)]
         dependent = {
@@ -73,6 +75,17 @@ class _Bridge:
                 "stores must be named like the model's variables"
             )
         return left
+
+    def states(self) -> dict[Any, Any]:
+        """Return the graph's momenta and displacements as functions of the model's variables."""
+        self._match_states()
+        self._match_flows()
+        self._displacements()
+        self.known |= {s.state: self._state(s) for s in self.wholes}
+        return {state: self.known[state] for state in (*(s.state for s in self.wholes), *self._totals())}
+
+    def _totals(self) -> list[Any]:
+        return [total.state for total in self.found.totals]
 
     def _match_states(self) -> None:
         """Stores and junctions named like the model's variables: what is known of totals, springs and inertias."""

@@ -7,7 +7,7 @@ from typing import Any
 
 from ..core.declare import Variable
 from ..core.errors import ModelError
-from ..core.model import Model, Names, call, declared
+from ..core.model import Model, Names, call, declared, is_current
 from .graph import Graph
 
 
@@ -126,15 +126,20 @@ def graph_of(model: type[Model], direction: int | None = 1) -> Graph:
     Raises
     ------
     ModelError
-        If the model has no method ``bond_graph``.
+        If the model has no method ``bond_graph``, or only one of a base class that states another motion.
     """
     from ..core.trace import parameter_symbol, symbolic_instance
 
-    if not hasattr(model, "bond_graph"):
+    if not states_bond_graph(model):
         raise ModelError(f"{model.model_id()} states no bond graph: a method 'bond_graph(self, u)' would")
     parts = declared(model)
     symbols = {name: parameter_symbol(p, direction) for name, p in parts.parameters.items()}
     return _graph(symbolic_instance(model, symbols), {"u": Names("u", input_symbols(parts.inputs))})
+
+
+def states_bond_graph(model: type[Model]) -> bool:
+    """Tell whether a model states a bond graph of its own motion, not only a base class one of another motion."""
+    return hasattr(model, "bond_graph") and (issubclass(model, BondGraphModel) or is_current(model, "bond_graph"))
 
 
 def input_symbols(inputs: Mapping[str, Any]) -> dict[str, Any]:

@@ -20,6 +20,7 @@ COMMANDS = {
     "new": "new",
     "sweep": "sweep",
     "routh": "routh",
+    "bonds": "bonds",
     "check": "check",
     "completion": "completion",
 }

@@ -264,6 +264,16 @@ def _check_methods(cls: type[Model]) -> None:
                     )
 
 
+def is_current(model: type[Model], method: str) -> bool:
+    """Tell whether a method is no older in the line of classes than the statement of motion in use.
+
+    One that a base class wrote for its own equations says nothing about a class that states new ones.
+    """
+    lines = [vars(base) for base in model.__mro__]
+    stated = next(i for i, names in enumerate(lines) if any(name in names for name in STATEMENTS))
+    return any(method in names for names in lines[: stated + 1])
+
+
 def argument_names(method: Callable[..., Any]) -> list[str]:
     """Names of a method's arguments without ``self``."""
     return [name for name in inspect.signature(method).parameters if name != "self"]

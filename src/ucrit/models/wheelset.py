@@ -37,18 +37,16 @@ class Wheelset(Model):
 
         def contact(side, sign):
             radius = self.r_0 + sign * self.lambda_ * q("y")
-            along = {"track": cos(q("psi")), "y": sin(q("psi")), "psi": -sign * self.d, "spin": -radius}
             return Graph(
-                running_gear.velocity(f"{side}_along", **along),
+                running_gear.velocity(side, ahead=1, psi=-sign * self.d, spin=-radius),
                 creep(f"{side}_x", self.f_x),
-                f"{side}_along -> {side}_x",
-                running_gear.velocity(f"{side}_across", y=cos(q("psi")), track=-sin(q("psi"))),
                 creep(f"{side}_y", self.f_y),
-                f"{side}_across -> {side}_y",
+                f"{side} -> {side}_x",
+                f"across -> {side}_y",
             )
 
         return Graph(
-            *(one(name) for name in ("y", "psi", "track", "spin")),
+            *(one(name) for name in ("y", "psi", "track", "spin", "ahead", "across")),
             Sf("speed", self.V),
             Sf("rolling", self.V / self.r_0),
             "speed -> track",
@@ -61,6 +59,10 @@ class Wheelset(Model):
             "y -> lateral_spring",
             "psi -> yawing",
             "psi -> yaw_spring",
+            running_gear.velocity("along_wheels", track=cos(q("psi")), y=sin(q("psi"))),
+            running_gear.velocity("across_wheels", y=cos(q("psi")), track=-sin(q("psi"))),
+            "along_wheels -> ahead",
+            "across_wheels -> across",
             contact("left", 1),
             contact("right", -1),
         )

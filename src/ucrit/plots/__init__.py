@@ -6,6 +6,7 @@ writes it.
 
 from __future__ import annotations
 
+from .bond_graph import plot_bond_graph
 from .damping import plot_damping
 from .dispatch import plot
 from .mode_shapes import plot_mode_shapes
@@ -17,6 +18,7 @@ from .stability_map import plot_map
 
 __all__ = [
     "plot",
+    "plot_bond_graph",
     "plot_damping",
     "plot_locus",
     "plot_map",

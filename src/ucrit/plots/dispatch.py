@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ..core.errors import UcritError
+from .bond_graph import plot_bond_graph
 from .mode_shapes import plot_mode_shapes
 from .overview import plot_overview
 from .remedies import plot_remedies
@@ -12,12 +13,12 @@ from .stability_map import plot_map
 
 
 def plot(result: Any, *, figure: Any = None) -> Any:
-    """Draw a result: an analysis, a root locus, modes, remedies, a stability map.
+    """Draw a result: an analysis, a root locus, modes, remedies, a stability map, a bond graph.
 
     Parameters
     ----------
     result
-        What `ucrit.analyze`, `locus`, `modes`, `remedies` or `stability_map` returned. Of an analysis the
+        What `ucrit.analyze`, `locus`, `modes`, `remedies`, `stability_map` or `bonds` returned. Of an analysis the
         root locus and the damping against speed are drawn, of a vehicle without speed its modes.
     figure
         Figure to draw into; a new one by default.
@@ -38,6 +39,7 @@ def plot(result: Any, *, figure: Any = None) -> Any:
     2
     """
     from ..analyses.analyze import Analysis
+    from ..analyses.bonds import Bonds
     from ..analyses.locus import Locus
     from ..analyses.modes import Modes
     from ..analyses.remedies import Remedy
@@ -45,6 +47,8 @@ def plot(result: Any, *, figure: Any = None) -> Any:
 
     if isinstance(result, Analysis):
         return _analysis(result, figure)
+    if isinstance(result, Bonds):
+        return plot_bond_graph(result.causality, figure=figure)
     if isinstance(result, Locus):
         return plot_overview(result, critical=_critical(result), figure=figure)
     if isinstance(result, Modes):
@@ -55,7 +59,7 @@ def plot(result: Any, *, figure: Any = None) -> Any:
         return plot_remedies(result, figure=figure)
     raise UcritError(
         f"there is no drawing for {type(result).__name__}; "
-        "drawn are the results of analyze, locus, modes, remedies and stability_map"
+        "drawn are the results of analyze, locus, modes, remedies, stability_map and bonds"
     )
 
 
