@@ -119,7 +119,7 @@ def bonds(subject: Graph | type[Model] | Model | str | os.PathLike[str]) -> Bond
         causality=found.causality,
         rows=_rows(found.causality),
         states=found.states,
-        equations=tuple(f"{s}' = {typeset(r)}" for s, r in zip(found.states, found.rates, strict=True)),
+        equations=tuple(f"{s}' = {typeset(r)}" for s, r in zip(found.states, found.tidied, strict=True)),
         findings=found.findings,
         balanced=not power.unbalanced and power.conserved is not False,
         text=write_graph(graph) + "\n" if model is None else _sheet(model, graph),

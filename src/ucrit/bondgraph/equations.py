@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from typing import Any
 
 import sympy as sp
@@ -37,7 +37,7 @@ class Dependence:
         return f"{self.element} (bond {self.bond.number}) is in derivative causality: its {what} {on}; solved"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class StateEquations:
     """What follows from a bond graph.
 
@@ -72,16 +72,18 @@ class StateEquations:
         """The graph."""
         return self.causality.graph
 
+    @cached_property
+    def tidied(self) -> tuple[Any, ...]:
+        """The rates as they are shown and used in models."""
+        return tuple(tidy(rate) for rate in self.rates)
+
     @property
     def findings(self) -> tuple[str, ...]:
         """Derivative causality and algebraic loops, a sentence each."""
         return tuple(str(x) for x in (*self.dependences, *self.loops))
 
-    def __hash__(self) -> int:
-        return hash(self.causality.graph)
-
     def __str__(self) -> str:
-        return "\n".join(f"{name}' = {rate}" for name, rate in zip(self.states, self.rates, strict=True))
+        return "\n".join(f"{name}' = {rate}" for name, rate in zip(self.states, self.tidied, strict=True))
 
 
 @lru_cache(maxsize=64)
@@ -129,7 +131,7 @@ def state_equations(graph: Graph, inputs: tuple[Any, ...] = ()) -> StateEquation
         work.causality,
         tuple(s.name for s in (*wholes, *work.totals)),
         tuple(symbols),
-        tuple(tidy(rate.xreplace(solved)) for rate in rates),
+        tuple(rate.xreplace(solved) for rate in rates),
         tuple(final[effort(b)] for b in graph.bonds),
         tuple(final[flow(b)] for b in graph.bonds),
         dependences,

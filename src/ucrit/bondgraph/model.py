@@ -49,7 +49,7 @@ class BondGraphModel(Model):
 
         found = state_equations(_graph(self, {"u": u}), _inputs(u))
         swap = {s: getattr(x, name) for s, name in zip(found.symbols, found.states, strict=True)}
-        of = dict(zip(found.states, found.rates, strict=True))
+        of = dict(zip(found.states, found.tidied, strict=True))
         return [getattr(dx, name) - of[name].xreplace(swap) for name in type(self).declaration.variables]
 
 

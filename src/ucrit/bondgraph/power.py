@@ -39,6 +39,7 @@ class PowerBalance:
     conserved: bool | None
 
 
+@lru_cache(maxsize=64)
 def power_balance(found: StateEquations) -> PowerBalance:
     """Return the powers and the energy of a graph, and tell whether they balance.
 
@@ -72,7 +73,6 @@ def power_balance(found: StateEquations) -> PowerBalance:
     return PowerBalance(bonds, supplied, dissipated, energy, unbalanced, conserved)
 
 
-@lru_cache(maxsize=32)
 def _energy(found: StateEquations) -> Any:
     total = sp.S.Zero
     for element in found.graph.elements:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 import sympy as sp
@@ -10,7 +11,9 @@ from ..bondgraph.equations import StateEquations, state_equations
 from ..bondgraph.further import graph_states
 from ..bondgraph.model import BondGraphModel, graph_of, states_bond_graph
 from ..bondgraph.power import power_balance
-from .precise import same_up_to_factor
+from ..core.derive import symbolic
+from ..core.model import Model, Names
+from .precise import DIGITS, same_up_to_factor
 from .report import FailedCheckError, NotApplicableError
 from .subject import Subject
 
@@ -22,34 +25,46 @@ def bond_graph(subject: Subject) -> str:
     """
     if not states_bond_graph(subject.model):
         raise NotApplicableError("the model states no bond graph; a method 'bond_graph' would")
-    inputs = subject.traced.u
-    for direction in subject.directions:
-        graph = graph_of(subject.model, direction)
-        found = state_equations(graph, inputs)
-        power = power_balance(found)
-        if power.unbalanced:
-            raise FailedCheckError(f"power is not passed on by {', '.join(power.unbalanced)}")
-        if power.conserved is False:
-            raise FailedCheckError("the rate of the stores' energy is not the power of sources and resistances")
-        if not issubclass(subject.model, BondGraphModel):
-            _compare(subject, direction, found)
+    found = _found(subject.model)
+    power = power_balance(found)
+    if power.unbalanced:
+        raise FailedCheckError(f"power is not passed on by {', '.join(power.unbalanced)}")
+    if power.conserved is False:
+        raise FailedCheckError("the rate of the stores' energy is not the power of sources and resistances")
     energy = "and is the rate of the energy" if power.conserved else "(a store's energy cannot be told)"
-    return f"power balances in every junction {energy}; {len(found.states)} states give the same polynomial"
+    said = f"power balances in every junction {energy}"
+    if issubclass(subject.model, BondGraphModel):
+        return said
+    _compare(subject)
+    return f"{said}; {len(found.states)} momenta and displacements have the same characteristic polynomial"
 
 
-def _compare(subject: Subject, direction: int, found: StateEquations) -> None:
-    """Compare characteristic polynomials at random parameters, in exact numbers."""
-    system = subject.system(direction)
-    groups = subject.groups(system.traced)
-    states = graph_states(
-        subject.model.model_id(), found.graph, groups["x"], groups["dx"], groups["ddx"]
+@cache
+def _found(model: type[Model]) -> StateEquations:
+    return state_equations(graph_of(model), symbolic(model).traced.u)
+
+
+@cache
+def _slopes(model: type[Model]) -> Any:
+    """Return the matrix of the state equations about the basic motion."""
+    found, traced = _found(model), symbolic(model).traced
+    names = list(model.declaration.variables)
+    x, dx, ddx = (
+        Names(group, {name: chain[k] for name, chain in zip(names, traced.q, strict=False) if k < len(chain)})
+        for k, group in enumerate(("x", "dx", "ddx"))
     )
-    basic = {symbol: sp.sympify(value) for symbol, value in system.traced.basic.items()}
+    states = graph_states(model.model_id(), found.graph, x, dx, ddx)
+    basic = {symbol: sp.sympify(value) for symbol, value in traced.basic.items()}
     basic |= {s: states[s].xreplace(basic) for s in found.symbols}
-    slopes = sp.Matrix(found.rates).jacobian(sp.Matrix(found.symbols)).xreplace(basic)
+    return sp.Matrix(found.rates).jacobian(sp.Matrix(found.symbols)).xreplace(basic)
+
+
+def _compare(subject: Subject) -> None:
+    """Compare characteristic polynomials at random parameters, in exact numbers."""
+    system, slopes = subject.system(), _slopes(subject.model)
     symbols = list(system.traced.parameters.values())
-    for point in subject.points("bond graph", direction):
-        values = dict(zip(symbols, map(sp.nsimplify, map(str, point)), strict=True))
+    for point in subject.points("bond graph", count=2):
+        values = dict(zip(symbols, map(sp.Rational, map(str, point)), strict=True))
         one = [sp.sympify(c).xreplace(values) for c in system.polynomial.expressions]
         other = slopes.xreplace(values).charpoly().all_coeffs()[::-1]
         if not same_up_to_factor(_numbers(one), _numbers(other)):
@@ -60,7 +75,7 @@ def _numbers(coefficients: list[Any]) -> list[Any]:
     """Return coefficients as numbers, those of the lowest powers left out while they are zero."""
     import mpmath
 
-    with mpmath.workdps(40):
-        values = [mpmath.mpmathify(sp.sympify(c).evalf(40)) for c in coefficients]
+    with mpmath.workdps(DIGITS):
+        values = [mpmath.mpmathify(sp.sympify(c).evalf(DIGITS)) for c in coefficients]
     first = next(i for i, v in enumerate(values) if v)
     return values[first:]
