@@ -96,7 +96,7 @@ def _cut(graph: Graph, reads: Any) -> list[Any]:
     """Return variables without which the others can be computed one after the other, those of resistances first."""
     resistances = {b.number for e in graph.elements if e.kind == "R" for b in graph.bonds_at[e.name]}
     left = nx.DiGraph(reads)
-    cut = []
+    cut: list[Any] = []
     while True:
         cyclic = [c for c in nx.strongly_connected_components(left) if len(c) > 1 or left.has_edge(*(2 * list(c)))]
         if not cyclic:

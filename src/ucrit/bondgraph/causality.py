@@ -123,7 +123,9 @@ class _Work:
     def _conflict(self, element: Element, bonds: list[Bond]) -> str:
         takes = {"0": "one effort", "1": "one flow", "TF": "an effort at one end and a flow at the other"}[element.kind]
         roots = {self.roots[b.number] for b in bonds}
-        return f"causal conflict: {element} takes {takes}, and {self._told(roots)} deny it that at bonds {_numbers(bonds)}"
+        return (
+            f"causal conflict: {element} takes {takes}, and {self._told(roots)} deny it that at bonds {_numbers(bonds)}"
+        )
 
     def _clash(self, bond: Bond, names: set[str]) -> str:
         return f"causal conflict: {self._told(names)} ask for opposite causalities of bond {bond}"

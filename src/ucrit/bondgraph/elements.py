@@ -35,7 +35,7 @@ class Element:
 
     def __post_init__(self) -> None:
         if not self.name.isidentifier():
-            raise ModelError(f"{self.kind} '{self.name}': a name is made of letters, digits and _, not beginning with 1")
+            raise ModelError(f"{self.kind} '{self.name}': a name is made of letters, digits and _, a letter first")
 
     @property
     def label(self) -> str:
@@ -67,7 +67,7 @@ def Sf(name: str, flow: Any) -> Element:
     return Element("Sf", name, Law("flow", "", (exact(flow),)))
 
 
-def I(
+def I(  # noqa: E743
     name: str,
     inertia: Any = None,
     *,

@@ -129,7 +129,7 @@ def state_equations(graph: Graph, inputs: tuple[Any, ...] = ()) -> StateEquation
     final = {symbol: x.xreplace(solved) for symbol, x in values.items()}
     return StateEquations(
         work.causality,
-        tuple(s.name for s in (*wholes, *work.totals)),
+        (*(s.name for s in wholes), *(t.name for t in work.totals)),
         tuple(symbols),
         tuple(rate.xreplace(solved) for rate in rates),
         tuple(final[effort(b)] for b in graph.bonds),

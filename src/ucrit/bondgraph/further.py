@@ -64,9 +64,7 @@ class _Bridge:
         self.states()
         given = [self._put(s.given) for s in self.wholes]
         equations = [self._rate(self._state(s)) - g for s, g in zip(self.wholes, given, strict=True)]
-        dependent = {
-            s.output: self._rate(self._put(s.law)) for s in self.found.stores if not s.integral
-        }
+        dependent = {s.output: self._rate(self._put(s.law)) for s in self.found.stores if not s.integral}
         equations = [eq.xreplace(dependent) for eq in equations]
         left = [eq for eq in equations if not is_zero(eq)] + self.constraints
         if len(left) != len(self.x):

@@ -180,6 +180,8 @@ def _declare_states(cls: type[Model]) -> None:
         if name in parts.parameters or name in parts.inputs or hasattr(Model, name):
             raise ModelError(f"{cls.__name__}: the graph has a state '{name}', and that name is taken")
         if name not in units:
-            raise ModelError(f"{cls.__name__}: the unit of {name} does not follow; declare {name} = state(unit, meaning)")
+            raise ModelError(
+                f"{cls.__name__}: the unit of {name} does not follow from the graph; declare {name} = state(unit, meaning)"
+            )
         what = "momentum" if name.startswith("p") else "displacement"
         setattr(cls, name, Variable(units[name], f"{what} of {element.name}", motion=element.name))

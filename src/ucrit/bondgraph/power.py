@@ -113,6 +113,3 @@ def _stored(found: StateEquations, element: Any) -> Any:
     if not own[0].integral:
         return None
     return area.xreplace({taken: own[0].state})
-
-
-__all__ = ["PowerBalance", "power_balance"]

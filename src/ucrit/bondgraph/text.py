@@ -27,7 +27,7 @@ from __future__ import annotations
 
 import keyword
 import re
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -61,7 +61,7 @@ class Sheet:
         bond_lines: list[int] = []
         for number, text in self.lines:
             with_line = _Line(f"{self.where}, line {number}")
-            for part in with_line.do(lambda text=text: list(_parts(text, names))):
+            for part in with_line.do(_parts, text, names):
                 if isinstance(part, Element) and part.name in line_of:
                     first = line_of[part.name]
                     raise ModelError(f"{with_line.where}: there is an element '{part.name}' in line {first} already")
@@ -85,9 +85,9 @@ class _Line:
 
     where: str
 
-    def do(self, work: Callable[[], Any]) -> Any:
+    def do(self, work: Callable[..., Any], *arguments: Any) -> Any:
         try:
-            return work()
+            return work(*arguments)
         except UcritError as error:
             raise ModelError(f"{self.where}: {error}") from None
 
@@ -107,7 +107,7 @@ def read_sheet(text: str, where: str = "bond graph") -> Sheet:
         elif word == "title":
             title = rest.strip()
         elif word in DECLARATIONS:
-            name, quantity = at.do(lambda word=word, rest=rest: _quantity(word, rest.strip()))
+            name, quantity = at.do(_quantity, word, rest.strip())
             if name in parameters or name in inputs:
                 raise ModelError(f"{at.where}: '{name}' is declared twice")
             (inputs if word == "input" else parameters)[name] = quantity
@@ -223,26 +223,21 @@ def _checked(name: str) -> str:
     return name
 
 
-def _parts(line: str, names: Mapping[str, Any]) -> Iterator[Element | str]:
+def _parts(line: str, names: Mapping[str, Any]) -> list[Element | str]:
     if ARROW in line:
-        pieces = [piece.strip() for piece in line.split(ARROW)]
-        for piece in pieces:
-            if not piece.isidentifier():
-                raise ModelError(f"a bond is written 'a -> b', got '{line}'")
-        yield f" {ARROW} ".join(pieces)
-        return
+        if not BOND.fullmatch(line):
+            raise ModelError(f"a bond is written 'a -> b', got '{line}'")
+        return [line]
     kind, _, rest = line.partition(" ")
     if kind in JUNCTIONS:
         if not rest.split():
             raise ModelError(f"a {kind}-junction needs a name")
-        for name in rest.split():
-            yield Element(kind, name)
-        return
+        return [Element(kind, name) for name in rest.split()]
     plain = MODULATED.get(kind, kind)
     if plain not in KINDS:
         words = (*KINDS, *MODULATED, *DECLARATIONS)
         raise ModelError(f"a line begins with a kind of element or is a bond, got '{kind}'{near_match(kind, words)}")
-    yield _element(plain, rest.strip(), names)
+    return [_element(plain, rest.strip(), names)]
 
 
 def _element(kind: str, rest: str, names: Mapping[str, Any]) -> Element:

@@ -14,7 +14,7 @@ from ..core.errors import ModelError
 from ..core.units import Dimension
 from .elements import JUNCTIONS, Element
 from .graph import Bond, Graph
-from .laws import is_reading, split
+from .laws import split
 
 POWER = Dimension(1, 2, -3)
 TIME = Dimension(0, 0, 1)
@@ -34,7 +34,7 @@ def state_units(graph: Graph, parameters: Mapping[Any, Dimension]) -> dict[str, 
     work = _Units(graph, dict(parameters))
     while work.step():
         pass
-    found = {}
+    found: dict[str, str] = {}
     for element in graph.elements:
         for port, bond in enumerate(graph.bonds_at[element.name], 1):
             if bond.number not in work.flows:
@@ -150,6 +150,3 @@ def _flow_of(kind: str, gives: str, coefficient: Dimension) -> Dimension:
     square = POWER.times(number, -1) if kind == "R" else POWER.times(TIME).times(number, -1)
     root = NUMBER.times(square, 0.5)
     return POWER.times(root, -1) if kind == "C" else root
-
-
-__all__ = ["is_reading", "state_units"]

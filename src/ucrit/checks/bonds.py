@@ -39,13 +39,11 @@ def bond_graph(subject: Subject) -> str:
     return f"{said}; {len(found.states)} momenta and displacements have the same characteristic polynomial"
 
 
-@cache
-def _found(model: type[Model]) -> StateEquations:
+def _found_in(model: type[Model]) -> StateEquations:
     return state_equations(graph_of(model), symbolic(model).traced.u)
 
 
-@cache
-def _slopes(model: type[Model]) -> Any:
+def _slopes_of(model: type[Model]) -> Any:
     """Return the matrix of the state equations about the basic motion."""
     found, traced = _found(model), symbolic(model).traced
     names = list(model.declaration.variables)
@@ -57,6 +55,10 @@ def _slopes(model: type[Model]) -> Any:
     basic = {symbol: sp.sympify(value) for symbol, value in traced.basic.items()}
     basic |= {s: states[s].xreplace(basic) for s in found.symbols}
     return sp.Matrix(found.rates).jacobian(sp.Matrix(found.symbols)).xreplace(basic)
+
+
+_found: Any = cache(_found_in)
+_slopes: Any = cache(_slopes_of)
 
 
 def _compare(subject: Subject) -> None:
