@@ -181,7 +181,7 @@ def _declare_states(cls: type[Model]) -> None:
             raise ModelError(f"{cls.__name__}: the graph has a state '{name}', and that name is taken")
         if name not in units:
             raise ModelError(
-                f"{cls.__name__}: the unit of {name} does not follow from the graph; declare {name} = state(unit, meaning)"
+                f"{cls.__name__}: the unit of {name} does not follow from the graph; declare it by state()"
             )
         what = "momentum" if name.startswith("p") else "displacement"
         setattr(cls, name, Variable(units[name], f"{what} of {element.name}", motion=element.name))
