@@ -49,9 +49,7 @@ def test_a_loop_of_resistances_is_solved_and_told():
     assert "R 'r1', R 'r2'" in str(loop)
 
 
-def test_a_loop_of_one_nonlinear_resistance_is_solved():
-    law = sp.Function("unused")
-    assert law
+def test_a_loop_that_may_have_several_solutions_is_refused():
     graph = Graph(
         one("x"), Se("push", F), R("r1", r), R("r2", effort=lambda v: k * v**3 + c * v), "push -> x -> r1", "x -> r2"
     )
@@ -81,7 +79,7 @@ def test_fields_couple_their_ports():
     A = sp.Matrix(found.rates).jacobian(sp.Matrix(found.symbols))
     expected = sp.Matrix([[-drag * inertia.inv(), -stiffness], [inertia.inv(), sp.zeros(2, 2)]])
     assert found.states == ("p_body_1", "p_body_2", "q_mount_1", "q_mount_2")
-    assert A == expected
+    assert expected == A
     assert power_balance(found).conserved
 
 
@@ -141,15 +139,11 @@ def test_what_laws_can_read():
          "causal conflict: Se 'a' and Se 'b' ask for opposite causalities of bond 2: b -> x"),
         ((one("x"), Sf("a", 1), TF("t", 2), one("y"), Sf("b", 2), "a -> x -> t -> y", "b -> y"),
          "causal conflict: Sf 'a' and Sf 'b' ask for opposite causalities of bond 4: b -> y"),
-        ((one("x"), R("r", effort=sp.Function("tanh")), Se("a", 1), "a -> x -> r"), None),
-        ((one("x"), R("r", effort=lambda v: v + v**3), Se("a", 1), "a -> x -> r"),
+        ((one("x"), R("r", effort=lambda v: v**3 - v), Se("a", 1), "a -> x -> r"),
          "R 'r': its law gives effort and cannot be solved for flow"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_told(parts, sentence):
-    if sentence is None:
-        state_equations(Graph(*parts))
-        return
     with pytest.raises(ModelError) as caught:
         state_equations(Graph(*parts))
     assert sentence in str(caught.value)
@@ -175,6 +169,6 @@ def test_what_cannot_be_built_is_told(wrong, sentence):
 def test_a_dependent_store_cannot_follow_an_input():
     speed = sp.Symbol("v", real=True)
     graph = Graph(one("x"), Sf("drive", speed), I("mass", m), "drive -> x -> mass")
-    with pytest.raises(ModelError, match="I 'mass' .bond 2. is in derivative causality and follows the input v"):
+    with pytest.raises(ModelError, match=r"I 'mass' .bond 2. is in derivative causality and follows the input v"):
         state_equations(graph, (speed,))
     assert state_equations(graph).states == ()

@@ -114,7 +114,7 @@ def _solution(residuals: list[Any], unknowns: list[Any]) -> tuple[list[Any] | No
         if len(unknowns) > 1:
             return None, False
         try:
-            found = [x for x in sp.solve(residuals[0], unknowns[0]) if not x.has(sp.I)]
+            found = sp.solve(residuals[0], unknowns[0])
         except NotImplementedError:
             return None, False
         return (found if len(found) == 1 else None), False

@@ -66,7 +66,8 @@ class _Bridge:
         equations = [self._rate(self._state(s)) - g for s, g in zip(self.wholes, given, strict=True)]
         dependent = {s.output: self._rate(self._put(s.law)) for s in self.found.stores if not s.integral}
         equations = [eq.xreplace(dependent) for eq in equations]
-        left = [eq for eq in equations if not is_zero(eq)] + self.constraints
+        equations += [eq.xreplace(dependent) for eq in self.constraints]
+        left = [eq for eq in equations if not is_zero(eq)]
         if len(left) != len(self.x):
             raise ModelError(
                 f"{self.where}: the bond graph gives {len(left)} equations for {len(self.x)} variables; junctions and "

@@ -128,7 +128,7 @@ class Graph:
             if bond.tail == bond.head:
                 yield bond, f"bond {bond}: it joins an element to itself"
         for element in self.elements:
-            for fault in (*_bond_faults(element, self.bonds_at[element.name]), *_reading_faults(self, element)):
+            for fault in (*_reading_faults(self, element), *_bond_faults(element, self.bonds_at[element.name])):
                 yield element, f"{element}{fault}"
 
 

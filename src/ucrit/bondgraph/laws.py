@@ -179,7 +179,7 @@ def _solve(residuals: list[Any], unknown: list[Any]) -> list[Any] | None:
         if len(unknown) > 1:
             return None
         try:
-            found = [x for x in sp.solve(residuals[0], unknown[0]) if not x.has(sp.I)]
+            found = sp.solve(residuals[0], unknown[0])
         except NotImplementedError:
             return None
         return found if len(found) == 1 else None

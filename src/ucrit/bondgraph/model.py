@@ -7,7 +7,7 @@ from typing import Any
 
 from ..core.declare import Variable
 from ..core.errors import ModelError
-from ..core.model import Model, Names, call, declared, is_current
+from ..core.model import Model, Names, call, check_methods, declared, is_current
 from .graph import Graph
 
 
@@ -39,6 +39,7 @@ class BondGraphModel(Model):
             for name, value in vars(base).items():
                 if isinstance(value, Variable) and value.meaning.startswith(DERIVED) and name not in vars(cls):
                     setattr(cls, name, None)
+        check_methods(cls)
         if hasattr(cls, "bond_graph") and cls.__name__ != "_FromText":
             _declare_states(cls)
         super().__init_subclass__(**options)
@@ -139,7 +140,10 @@ def graph_of(model: type[Model], direction: int | None = 1) -> Graph:
 
 def states_bond_graph(model: type[Model]) -> bool:
     """Tell whether a model states a bond graph of its own motion, not only a base class one of another motion."""
-    return hasattr(model, "bond_graph") and (issubclass(model, BondGraphModel) or is_current(model, "bond_graph"))
+    return hasattr(model, "bond_graph") and (
+        issubclass(model, BondGraphModel)
+        or any(is_current(model, method) for method in ("bond_graph", "equations_bond_graph"))
+    )
 
 
 def input_symbols(inputs: Mapping[str, Any]) -> dict[str, Any]:

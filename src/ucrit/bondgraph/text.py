@@ -305,9 +305,9 @@ def _element_line(element: Element) -> str:
 
 
 def _function() -> Any:
-    import sympy as sp
+    from sympy.core.function import Application
 
-    return sp.Function
+    return Application
 
 
 def _names_of_functions() -> set[str]:

@@ -41,6 +41,8 @@ def state_units(graph: Graph, parameters: Mapping[Any, Dimension]) -> dict[str, 
                 continue
             suffix = f"_{port}" if element.law and element.law.ports > 1 else ""
             flow = work.flows[bond.number]
+            if any(exponent != round(exponent) for exponent in flow):
+                continue
             found.setdefault(f"q_{element.name}{suffix}", _name(flow.times(TIME)))
             found.setdefault(f"p_{element.name}{suffix}", _name(POWER.times(flow, -1).times(TIME)))
     return found

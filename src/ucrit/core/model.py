@@ -10,7 +10,8 @@ one of three ways (argument names choose what is passed; ``x`` values, ``dx`` an
 * ``matrices(self)`` returns linear ``(P_0, P_1, P_2)`` with ``P_0 q + P_1 q' + P_2 q'' = 0``.
 
 ``outputs(self, x, dx, ddx, u)`` returns a dictionary, ``basic_motion(self)`` one with the keys ``x``, ``dx`` and ``u``.
-Any method named ``equations_<how>`` is a further derivation of the same vehicle, compared with the first.
+Any method named ``equations_<how>`` is a further derivation of the same vehicle, compared with the first; a bond graph,
+``bond_graph(self, u)``, is one by `ucrit.bondgraph.equations_bond_graph`.
 """
 
 from __future__ import annotations
@@ -35,6 +36,7 @@ ARGUMENTS = {
     "matrices": (),
     "outputs": ("x", "dx", "ddx", "u"),
     "basic_motion": (),
+    "bond_graph": ("u",),
 }
 STATEMENTS = ("equations", "kinetic_energy", "matrices")
 
@@ -94,7 +96,7 @@ class Model:
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
         cls.declaration = declared(cls)
-        _check_methods(cls)
+        check_methods(cls)
         cls.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
             [
                 inspect.Parameter(
@@ -249,7 +251,8 @@ def declared(cls: type[Model]) -> Declaration:
     return declaration
 
 
-def _check_methods(cls: type[Model]) -> None:
+def check_methods(cls: type[Model]) -> None:
+    """Raise `ModelError` where a class states no motion, or a method asks for an argument that there is not."""
     stated = [name for name in STATEMENTS if hasattr(cls, name)]
     if cls.declaration.variables and not stated:
         raise ModelError(f"{cls.__name__}: state the motion by one of {', '.join(STATEMENTS)}")
