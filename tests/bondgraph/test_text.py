@@ -13,7 +13,7 @@ from ucrit.catalogue import find_model, load
 SHEET = """title Mass on a spring with friction
 param m [kg] above 0: mass
 param k [N/m] above 0: stiffness
-param F_0 [N] at_least 0.0 default 0.0: friction
+param F_0 [N] at_least 0 default 0: friction
 param v_0 [m/s] above 0: velocity at which friction is fully there
 input F [N]: force
 

@@ -83,9 +83,9 @@ def swinging_body(m: Any, I_c: Any, a: Any, ahead: str, left: str = "", theta: s
     sideways = {left: 1} if left else {}
     return Graph(
         one(theta),
+        I("spin", I_c),
         velocity("left", **sideways, **{theta: a * cos(angle)}),
         I("mass_left", m),
-        I("spin", I_c),
         velocity("ahead", **{ahead: 1, theta: a * sin(angle)}),
         I("mass_ahead", m),
         f"{theta} -> spin",

@@ -186,12 +186,27 @@ def _dependent(
 
 
 def tidy(x: Any) -> Any:
-    """Return an expression with common factors of numerators and denominators cancelled where that is quick."""
-    if x.is_Atom or x.count_ops() > 400:
+    """Return an expression with common factors of numerators and denominators cancelled where that is quick.
+
+    Functions of more than a symbol are left as they are.
+    """
+    inner = [g for g in x.atoms(sp.Function) if not g.args[0].is_Symbol]
+    names = {g: sp.Dummy(real=True) for g in sorted(inner, key=sp.count_ops, reverse=True)}
+    short = x.xreplace(names)
+    if short.is_Atom or short.count_ops() > 400:
         return x
     try:
-        cancelled = sp.cancel(x)
+        cancelled = sp.cancel(short)
     except (sp.PolynomialError, NotImplementedError):
         return x
-    factored = sp.factor_terms(cancelled)
-    return min((x, cancelled, factored), key=lambda candidate: (candidate.count_ops(), len(str(candidate))))
+    found = [short, cancelled, sp.factor_terms(cancelled)]
+    if short.has(sp.sin) and short.has(sp.cos) and short.count_ops() < 150:
+        found.append(sp.factor_terms(sp.trigsimp(cancelled)))
+    back = {name: g for g, name in names.items()}
+    return min((_restored(x, back) for x in found), key=lambda x: (x.count_ops(), len(str(x))))
+
+
+def _restored(x: Any, back: Mapping[Any, Any]) -> Any:
+    while x.free_symbols & back.keys():
+        x = x.xreplace(dict(back))
+    return x

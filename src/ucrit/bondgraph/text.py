@@ -176,7 +176,9 @@ def write_sheet(title: str, parameters: Mapping[str, Parameter], inputs: Mapping
         if p.is_speed:
             lines.append(f"speed {name}{'' if p.above >= 0 else ' reverse'}: {p.meaning}")
             continue
-        bounds = [f"{b} {getattr(p, b)!r}" for b in BOUNDS if getattr(p, b) not in (None, float("inf"), -float("inf"))]
+        bounds = [
+            f"{b} {getattr(p, b):.17g}" for b in BOUNDS if getattr(p, b) not in (None, float("inf"), -float("inf"))
+        ]
         lines.append(" ".join(["param", name, f"[{p.unit}]", *bounds]) + f": {p.meaning}")
     lines += [f"input {name} [{u.unit}]: {u.meaning}" for name, u in inputs.items()]
     return "\n".join([*lines, "", write_graph(graph)]) + "\n"

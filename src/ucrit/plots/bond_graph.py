@@ -15,6 +15,7 @@ import numpy as np
 from ..bondgraph.causality import HEAD, Causality
 from ..bondgraph.elements import JUNCTIONS, Element
 from ..bondgraph.graph import Bond, Graph
+from ..bondgraph.laws import LINEAR
 from . import style
 
 SIZE, NAME_SIZE, NUMBER_SIZE = 11.0, 7.0, 7.0
@@ -118,6 +119,8 @@ def _law(element: Element) -> str:
     if law.ports > 1 or (law.takes and matrix is None):
         return ""
     expression = law.expressions[0] if matrix is None else matrix[0, 0]
+    if law.takes and (law.gives, law.takes) not in LINEAR:
+        expression = 1 / expression
     swap = {s: sp.Symbol(_reading(s.name)) for s in law.reads}
     expression = expression.xreplace(swap)
     if len(str(expression)) > LONGEST_LAW:
