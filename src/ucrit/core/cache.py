@@ -115,7 +115,7 @@ def _pieces(value: Any, seen: set[int]) -> Iterator[str]:
     value = getattr(value, "__func__", getattr(value, "fget", value))
     if isinstance(value, Quantity | int | float | str | bool | tuple | None):
         yield repr(value)
-    elif id(value) in seen:
+    elif id(value) in seen or _is_stamped(value):
         return
     elif isinstance(value, FunctionType):
         seen.add(id(value))
@@ -129,6 +129,12 @@ def _pieces(value: Any, seen: set[int]) -> Iterator[str]:
         yield from _class_pieces(value, seen)
     else:
         yield type(value).__name__
+
+
+def _is_stamped(value: Any) -> bool:
+    """Tell whether the code of a function or class is part of the package's own that is stamped as a whole."""
+    place = (getattr(value, "__module__", None) or "").split(".")
+    return place[0] == __name__.partition(".")[0] and len(place) > 1 and place[1] in DERIVING
 
 
 def _global_pieces(function: FunctionType, seen: set[int]) -> Iterator[str]:
