@@ -13,7 +13,8 @@ from ucrit.bondgraph import GY, TF, C, Graph, I, R, Se, Sf, causality, one, zero
 from ucrit.bondgraph.causality import HEAD, TAIL, Causality
 from ucrit.bondgraph.equations import state_equations
 from ucrit.bondgraph.power import power_balance
-from ucrit.bondgraph.text import read_graph, write_graph
+from ucrit.bondgraph.text import read_graph
+from ucrit.bondgraph.writing import write_graph
 
 NUMBERS = st.fractions(min_value="1/4", max_value=4, max_denominator=7).map(
     lambda x: sp.Rational(x.numerator, x.denominator)

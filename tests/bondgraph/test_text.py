@@ -7,7 +7,8 @@ import pytest
 from ucrit import ModelError, critical, modes
 from ucrit.analyses.bonds import stating
 from ucrit.bondgraph.model import graph_of, model_from_text
-from ucrit.bondgraph.text import read_graph, read_sheet, write_graph, write_sheet
+from ucrit.bondgraph.text import read_graph, read_sheet
+from ucrit.bondgraph.writing import write_graph, write_sheet
 from ucrit.catalogue import find_model, load
 
 SHEET = """title Mass on a spring with friction

@@ -9,13 +9,14 @@ from ucrit import bonds, find_model, plot
 from ucrit.analyses.bonds import stating
 from ucrit.bondgraph import Graph, I, R, causality, graph_of, one
 from ucrit.plots import bond_graph as drawing
+from ucrit.plots.bond_layout import places_of
 
 NAMES = stating()
 
 
 def laid_out(graph):
     boxes = {e.name: drawing._box(e, True) for e in graph.elements}
-    return boxes, drawing._places(graph, boxes)
+    return boxes, places_of(graph, boxes)
 
 
 @pytest.mark.parametrize("name", NAMES)

@@ -106,7 +106,7 @@ def bonds(subject: Graph | type[Model] | Model | str | os.PathLike[str]) -> Bond
     """
     from ..bondgraph.equations import state_equations
     from ..bondgraph.power import power_balance
-    from ..bondgraph.text import write_graph
+    from ..bondgraph.writing import write_graph
     from ..core.typeset import text as typeset
 
     graph, model = _graph(subject)
@@ -127,7 +127,7 @@ def bonds(subject: Graph | type[Model] | Model | str | os.PathLike[str]) -> Bond
 
 
 def _sheet(model: type[Model], graph: Graph) -> str:
-    from ..bondgraph.text import write_sheet
+    from ..bondgraph.writing import write_sheet
 
     return write_sheet(model.title(), model.declaration.parameters, model.declaration.inputs, graph)
 

@@ -135,6 +135,7 @@ def read_graph(text: str, names: Mapping[str, Any] | None = None, where: str = "
 
     Examples
     --------
+    >>> from ucrit.bondgraph.writing import write_graph
     >>> graph = read_graph("1 x\\nI mass = 3\\nC spring = 0.5\\nx -> mass\\nx -> spring")
     >>> print(write_graph(graph))
     1 x
@@ -155,33 +156,6 @@ def declared_symbols(sheet: Sheet, direction: int | None = 1) -> dict[str, Any]:
 
     symbols = {name: parameter_symbol(_named(p, name), direction) for name, p in sheet.parameters.items()}
     return symbols | {name: sp.Symbol(name, real=True) for name in sheet.inputs}
-
-
-def write_graph(graph: Graph) -> str:
-    """Return a graph as text that `read_graph` reads back to an equal one.
-
-    Raises
-    ------
-    ModelError
-        If a law holds a function that the text form has no name for.
-    """
-    lines = [_element_line(element) for element in graph.elements]
-    return "\n".join([*lines, *(f"{b.tail} {ARROW} {b.head}" for b in graph.bonds)])
-
-
-def write_sheet(title: str, parameters: Mapping[str, Parameter], inputs: Mapping[str, Input], graph: Graph) -> str:
-    """Return a graph with the declarations of its parameters as text."""
-    lines = [f"title {title}"] if title else []
-    for name, p in parameters.items():
-        if p.is_speed:
-            lines.append(f"speed {name}{'' if p.above >= 0 else ' reverse'}: {p.meaning}")
-            continue
-        bounds = [
-            f"{b} {getattr(p, b):.17g}" for b in BOUNDS if getattr(p, b) not in (None, float("inf"), -float("inf"))
-        ]
-        lines.append(" ".join(["param", name, f"[{p.unit}]", *bounds]) + f": {p.meaning}")
-    lines += [f"input {name} [{u.unit}]: {u.meaning}" for name, u in inputs.items()]
-    return "\n".join([*lines, "", write_graph(graph)]) + "\n"
 
 
 def _named(parameter: Parameter, name: str) -> Parameter:
@@ -291,28 +265,3 @@ def _stated(kind: str, name: str, law: str, names: Mapping[str, Any]) -> Law:
     taken = placeholders(TAKES[kind][gives], len(left))
     known = {**names, **{symbol.name: symbol for symbol in taken}}
     return Law(gives, TAKES[kind][gives], tuple(_expression(x, known, kind, name) for _, x in sides))
-
-
-def _element_line(element: Element) -> str:
-    law = element.law
-    if law is None:
-        return f"{element.kind} {element.name}"
-    text = str(law).replace("Abs(", "abs(")
-    for x in law.expressions:
-        for function in x.atoms(_function()):
-            if function.func.__name__ not in _names_of_functions():
-                raise ModelError(f"{element}: the text form has no name for {function}")
-    sign = ":" if "=" in text else " ="
-    return f"{element.label} {element.name}{sign} {text}"
-
-
-def _function() -> Any:
-    from sympy.core.function import Application
-
-    return Application
-
-
-def _names_of_functions() -> set[str]:
-    from ..core.expressions import FUNCTIONS
-
-    return {"Abs", *FUNCTIONS}
