@@ -154,6 +154,7 @@ def test_examples_in_the_help_run(run: Run, tmp_path: Path, monkeypatch: pytest.
     monkeypatch.chdir(tmp_path)
     (tmp_path / "my_model.py").write_text(OWN_MODEL)
     Path("mine.toml").write_text(run("new", "caravan").stdout)
+    Path("mine.bonds").write_text(run("bonds", "oscillator", "--text").stdout)
     tried = 0
     for name in COMMANDS:
         for line in re.findall(rf"^    (ucrit {name} .*)$", run(name, "--help").stdout, re.MULTILINE):
