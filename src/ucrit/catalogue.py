@@ -10,12 +10,15 @@ from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from .core.errors import ModelError, UcritError, near_match
-from .core.files import parse_vehicle, read_text
+from .core.files import Find, parse_vehicle, read_text
 from .core.model import Model
 from .core.part import Part
+
+if TYPE_CHECKING:
+    from .control import Controller
 
 HERE = Path(__file__).resolve().parent
 VEHICLES = HERE / "data" / "vehicles"
@@ -77,6 +80,39 @@ def _laws(kind: type[Part]) -> dict[str, type[Part]]:
     modules = (importlib.import_module(f"{package.__name__}.{m.name}") for m in pkgutil.iter_modules(package.__path__))
     found = (value for module in modules for value in vars(module).values() if isinstance(value, type))
     return {law.part_id(): law for law in found if issubclass(law, kind) and law is not kind}
+
+
+@cache
+def controller_names() -> tuple[str, ...]:
+    """Names of all controllers in the catalogue.
+
+    >>> "lean-by-front-steering" in controller_names()
+    True
+    """
+    stems = (e.name[:-3] for e in os.scandir(HERE / "control" / "laws") if e.name.endswith(".py"))
+    return tuple(sorted(stem.replace("_", "-") for stem in stems if not stem.startswith("_")))
+
+
+def find_controller(name: str) -> type[Controller]:
+    """Return a controller's class by its catalogue name."""
+    from .control import Controller
+
+    key = name.replace("_", "-")
+    if key not in controller_names():
+        raise UcritError(f"there is no controller '{name}'{near_match(name, controller_names())}")
+    module = importlib.import_module(f"ucrit.control.laws.{key.replace('-', '_')}")
+    found = models_in(module)[-1]
+    assert issubclass(found, Controller)
+    return found
+
+
+def controlled(model: type[Model], controllers: tuple[str, ...]) -> type[Model]:
+    """Return a model under the control of controllers of the catalogue."""
+    if not controllers:
+        return model
+    from .control import closed
+
+    return closed(model, *map(find_controller, controllers))
 
 
 def models_in(module: ModuleType) -> list[type[Model]]:
@@ -157,5 +193,5 @@ def load(vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = No
     else:
         raise UcritError(f"there is no vehicle '{name}'{near_match(name, vehicle_names())}")
     folder = path.parent
-    find = (lambda model: find_model(model, folder)), (lambda law, kind: find_part(law, kind, folder))
-    return parse_vehicle(read_text(path), where, *find, changes, at_speed)
+    find = Find(lambda model: find_model(model, folder), lambda law, kind: find_part(law, kind, folder), controlled)
+    return parse_vehicle(read_text(path), where, find, changes, at_speed)

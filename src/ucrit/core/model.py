@@ -18,7 +18,6 @@ from __future__ import annotations
 import inspect
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cache
 from types import MappingProxyType
 from typing import Any, Self, dataclass_transform
 
@@ -26,7 +25,8 @@ import numpy as np
 
 from .declare import Input, Output, Parameter, Quantity, Variable, param, speed
 from .errors import ModelError, UcritError, near_match
-from .part import Constant, Part, Slot, recipe
+from .made import made, reference, resolve
+from .part import Part, Slot
 
 ARGUMENTS = {
     "equations": ("x", "dx", "ddx", "u"),
@@ -38,7 +38,7 @@ ARGUMENTS = {
     "outputs": ("x", "dx", "ddx", "u"),
     "basic_motion": (),
 }
-STATEMENTS = ("equations", "kinetic_energy", "matrices")
+STATEMENTS = ("equations", "kinetic_energy", "matrices", "closed_loop")
 
 
 class Names:
@@ -93,6 +93,7 @@ class Model:
     info: Info = Info()
     _values: Mapping[str, float | np.ndarray[Any, Any]]
     _shared: Mapping[str, str]
+    _arguments: Mapping[str, tuple[str, ...]] = MappingProxyType(ARGUMENTS)
     _unfitted: type[Model] | None = None
     _laws: Mapping[str, type[Part]] = MappingProxyType({})
 
@@ -130,8 +131,7 @@ class Model:
         raise AttributeError(f"a vehicle does not change: use with_({name}=...) to get a changed copy")
 
     def __reduce__(self) -> Any:
-        laws = {name: recipe(law) for name, law in self._laws.items()}
-        return _restore, (self._unfitted or type(self), laws, dict(self._values), dict(self._shared), self.info)
+        return _restore, (reference(type(self)), dict(self._values), dict(self._shared), self.info)
 
     def __eq__(self, other: object) -> bool:
         if type(self) is not type(other):
@@ -171,8 +171,14 @@ class Model:
         changed = {**cls._laws, **laws}
         base = cls._unfitted or cls
         fitting = tuple((n, law) for n, law in sorted(changed.items()) if base.declaration.slots[n].law is not law)
-        found: type[Self] = _fitted(base, fitting) if fitting else base  # type: ignore[assignment]
+        found: type[Self] = made(_with_laws, base, fitting) if fitting else base  # type: ignore[assignment]
         return found
+
+    @classmethod
+    def ingredients(cls) -> dict[str, Any]:
+        """Return what the model is made of as vehicle files name it: ``model``, ``parts`` and ``controllers``."""
+        parts = {name: slot.law.part_id() for name, slot in cls.declaration.slots.items()}
+        return {"model": cls.model_id(), **({"parts": parts} if parts else {})}
 
     @classmethod
     def title(cls) -> str:
@@ -242,25 +248,14 @@ class Model:
         return f"<b>{escape(self.info.name or type(self).__name__)}</b><table>{rows}</table>"
 
 
-def _make_fitted(cls: type[Model], laws: tuple[tuple[str, type[Part]], ...]) -> type[Model]:
+def _with_laws(cls: type[Model], laws: tuple[tuple[str, type[Part]], ...]) -> type[Model]:
     slots = {name: cls.declaration.slots[name].fitted(law, cls.model_id()) for name, law in laws}
     body = {"__module__": cls.__module__, "__doc__": cls.__doc__, "__qualname__": cls.__qualname__}
     return type(cls.__name__, (cls,), {**body, **slots, "_unfitted": cls, "_laws": MappingProxyType(dict(laws))})
 
 
-_fitted: Any = cache(_make_fitted)
-
-
-def _restore(
-    cls: type[Model],
-    laws: dict[str, tuple[type[Part], dict[str, Constant]]],
-    values: dict[str, Any],
-    shared: dict[str, str],
-    info: Info,
-) -> Model:
-    model = cls.fitted(**{name: law.of(constants) if constants else law for name, (law, constants) in laws.items()})(
-        **values
-    )
+def _restore(cls: Any, values: dict[str, Any], shared: dict[str, str], info: Info) -> Model:
+    model: Model = resolve(cls)(**values)
     model.__dict__.update(info=info, _shared=MappingProxyType(shared))
     return model
 
@@ -319,12 +314,11 @@ def _check_methods(cls: type[Model]) -> None:
         raise ModelError(f"{cls.__name__}: state the motion by one of {', '.join(STATEMENTS)}")
     for name in dir(cls):
         key = "equations" if name.startswith("equations_") else name
-        if key in ARGUMENTS and callable(getattr(cls, name)):
+        if (allowed := cls._arguments.get(key)) and callable(getattr(cls, name)):
             for argument in argument_names(getattr(cls, name)):
-                if argument not in ARGUMENTS[key]:
+                if argument not in allowed:
                     raise ModelError(
-                        f"{cls.__name__}.{name}: there is no argument '{argument}'"
-                        f"{near_match(argument, ARGUMENTS[key])}"
+                        f"{cls.__name__}.{name}: there is no argument '{argument}'{near_match(argument, allowed)}"
                     )
 
 

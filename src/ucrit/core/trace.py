@@ -139,6 +139,8 @@ def _residuals(
         matrices = [sp.Matrix(P) for P in instance.matrices()]  # type: ignore[attr-defined]
         rows = [sp.Matrix([chain[k] if k < len(chain) else 0 for chain in q]) for k in range(len(matrices))]
         return list(sum((P * row for P, row in zip(matrices, rows, strict=True)), sp.zeros(len(q), 1))), []
+    if statement == "closed_loop":
+        return instance.closed_loop(q, groups)  # type: ignore[attr-defined,no-any-return]
     return [sp.sympify(r) for r in as_tuple(call(getattr(instance, statement), groups))], []
 
 
