@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import ucrit
-from ucrit import ModelError, UcritError, input, load, output, param, state
+from ucrit import Model, ModelError, UcritError, input, load, output, param, speed, state
 from ucrit.catalogue import load as load_vehicle
 from ucrit.control import Controller, close, closed
 from ucrit.core.compiled import state_space
@@ -112,19 +112,37 @@ def test_the_book_s_criterion_for_steering_into_the_lean():
     assert wheelbase in a[0].free_symbols
 
 
-def test_the_basic_motion_of_the_vehicle_is_kept():
-    class ElevatorFeedback(Controller):
-        """Elevator by pitch."""
+class Lift(Model):
+    """Body that a force holds up against gravity while it climbs."""
 
-        drives = ("delta_e",)
-        G: float = param("1", "gain")
+    m: float = param("kg", "mass", above=0)
+    g: float = param("m/s^2", "gravity", above=0)
+    c: float = param("N s^2/m^2", "drag per velocity squared", above=0)
+    w: float = speed("climbing speed")
+
+    v = state("m/s", "upward velocity")
+    F = input("N", "upward force")
+
+    def equations(self, x, dx, u):
+        return self.m * (dx.v + self.g) + self.c * x.v**2 - u.F
+
+    def basic_motion(self):
+        return {"x": {"v": self.w}, "u": {"F": self.m * self.g + self.c * self.w**2}}
+
+
+def test_the_basic_motion_of_the_vehicle_is_kept():
+    class Governor(Controller):
+        """Force by the error of the velocity."""
+
+        drives = ("F",)
+        G: float = param("N s/m", "gain")
 
         def law(self, x, x0, u0):
-            return {"delta_e": u0.delta_e + self.G * (x.theta - x0.theta)}
+            return {"F": u0.F - self.G * (x.v - x0.v)}
 
-    airplane = load("navion-from-geometry")
-    controlled = close(airplane, ElevatorFeedback, G=0.0)
-    np.testing.assert_allclose(state_space(controlled).A, state_space(airplane).A, rtol=1e-12)
+    lift = close(Lift(m=2, g=9.81, c=0.5, w=3), Governor, G=4)
+    np.testing.assert_allclose(state_space(lift).A, -(2 * 0.5 * 3 + 4) / 2)
+    assert ucrit.simulate(lift, 1, {"v": 3.0})["v"][-1] == pytest.approx(3)
 
 
 def test_pickle_and_file_keep_the_loop(tmp_path):
