@@ -1,7 +1,6 @@
 """Every vehicle answers every analysis that fits it; one that does not fit is refused in a sentence."""
 
 import math
-import warnings
 from itertools import cycle, islice
 
 import numpy as np
@@ -9,7 +8,8 @@ import pytest
 
 import ucrit
 from ucrit import UcritError, load
-from ucrit.catalogue import model_names, vehicle_names
+from ucrit.catalogue import vehicle_names
+from ucrit.core.compiled import coefficients
 
 ONE_EACH = list({type(load(name)): name for name in vehicle_names()}.values())
 """One vehicle of every model."""
@@ -40,7 +40,7 @@ ALWAYS = {
     "analyze": ucrit.analyze,
     "show": ucrit.show,
     "new": lambda v: ucrit.new(type(v)),
-    "routh": ucrit.routh,
+    "routh": lambda v: ucrit.routh(coefficients(v)),
     "forms": ucrit.forms,
     "remedies": ucrit.remedies,
     "sensitivity": ucrit.sensitivity,
@@ -69,6 +69,15 @@ WHERE_IT_FITS = {
     "moment_line": ucrit.moment_line,
     "trim": ucrit.trim,
 }
+REFUSED = {
+    "to_control": {"caravan-kinematic"},
+    "simulate": set(),
+    "approximation": set(),
+    "criteria": {"car-and-caravan", "coach-truck", "navion", "navion-from-geometry"},
+    "critical value": set(),
+    "locus": set(),
+}
+"""Vehicles that alone are refused what fits nearly all: criteria too long to be read, one state without an input."""
 
 
 @pytest.mark.parametrize("name", ONE_EACH)
@@ -80,11 +89,12 @@ def test_every_vehicle_answers(name):
 
 @pytest.mark.parametrize("what", WHERE_IT_FITS)
 def test_what_does_not_fit_is_refused_in_a_sentence(what):
-    answered, sentences = [], []
+    refused = {}
     for name in ONE_EACH:
         try:
-            answered.append(WHERE_IT_FITS[what](load(name)))
+            assert WHERE_IT_FITS[what](load(name)) is not None
         except UcritError as error:
-            sentences.append(str(error))
-    assert answered
-    assert not any("\n" in sentence for sentence in sentences)
+            refused[name] = str(error)
+    assert len(refused) < len(ONE_EACH)
+    assert set(refused) == REFUSED.get(what, set(refused))
+    assert not any("\n" in sentence for sentence in refused.values())
