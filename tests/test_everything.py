@@ -73,6 +73,7 @@ REFUSED = {
     "to_control": {"caravan-kinematic"},
     "simulate": set(),
     "approximation": set(),
+    "limit": set(),
     "criteria": {"car-and-caravan", "coach-truck", "navion", "navion-from-geometry"},
     "critical value": set(),
     "locus": set(),

@@ -67,7 +67,7 @@ class HandOver:
         """Return numerator and denominator, highest power first, the latter's first coefficient being 1."""
         arrays = ", ".join(self._numbers().dims)
         if arrays:
-            raise UcritError(f"a transfer function handed over is that of one vehicle: give one value each for {arrays}")
+            raise UcritError(f"a transfer function in numbers is that of one vehicle: give one value each for {arrays}")
         above, below = ([float(c) for c in reversed(part)] for part in self.coefficients())
         above, below = _without_leading_zeros(above), _without_leading_zeros(below)
         return [c / below[0] for c in above], [c / below[0] for c in below]

@@ -91,7 +91,8 @@ def routh(polynomial: str | Sequence[Any], variable: str = "s", positive: Iterab
     Raises
     ------
     UcritError
-        If it is no formula or list, cannot be read or is no polynomial in the variable, or ``positive`` names no symbol of it.
+        If it is no formula or list, cannot be read or is no polynomial in the variable, or ``positive`` names no
+        symbol of it.
 
     Examples
     --------

@@ -59,8 +59,9 @@ class RouthArray:
         return "\n".join([*lines, *self.notes, *self._verdict()])
 
     def _repr_html_(self) -> str:
+        variable = escape(self.variable)
         rows = "".join(
-            f"<tr><th>{escape(self.variable)}<sup>{power}</sup></th>{''.join(f'<td>{escape(_text(x))}</td>' for x in row)}</tr>"
+            f"<tr><th>{variable}<sup>{power}</sup></th>{''.join(f'<td>{escape(_text(x))}</td>' for x in row)}</tr>"
             for power, row in zip(self.powers, self.rows, strict=True)
         )
         notes = "".join(f"<p>{escape(note)}</p>" for note in (*self.notes, *self._verdict()))
