@@ -140,9 +140,27 @@ def test_too_long_conditions_are_refused_with_a_way_out():
     assert all(condition.parameters == ("U",) for condition in found)
 
 
+@pytest.mark.parametrize("name", [n for n in vehicle_names() if type(load(n)).model_id() != "rail-truck"])
+def test_each_parameter_alone_can_stay_free(name):
+    vehicle = load(name)
+    for parameter in vehicle.values:
+        found = criteria(vehicle, free=[parameter])
+        holds = not found.failing(vehicle) if found.settled is None else found.settled
+        wanted = "neutral" if found.kind == "neutral" else "asymptotically stable"
+        assert holds == (verdict(vehicle).state == wanted)
+        assert all(len(str(condition)) < 10_000 for condition in found)
+
+
+def test_free_parameters_of_a_large_model_are_refused_with_another_way_out():
+    with pytest.raises(UcritError, match="the conditions in V are too long to be read; critical gives"):
+        criteria(load("coach-truck"), free=["V"])
+
+
 def test_free_needs_a_vehicle_and_known_names():
     with pytest.raises(UcritError, match="need a vehicle"):
         criteria(find_model("car"), free=["U"])
+    with pytest.raises(UcritError, match="need scalar values, got arrays for U"):
+        criteria(load("caravan").with_(U=[10.0, 20.0]), free=["m"])
     with pytest.raises(UcritError, match="did you mean 'C_f'"):
         criteria(load("bmw-320i"), free=["C_F"])
 

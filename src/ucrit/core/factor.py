@@ -22,7 +22,11 @@ def factors(poly: PolyElement) -> tuple[int, list[tuple[PolyElement, int]]]:
         return int(content), [(f, int(m)) for f, m in found]
     if not poly.ring.ngens:
         return int(poly.LC), []
-    content, found = _flint(poly).factor()
+    try:
+        content, found = _flint(poly).factor()
+    except OverflowError:  # it sorts factors by coefficients, and those of a vehicle's numbers exceed a machine word
+        content, found = poly.factor_list()
+        return int(content), [(f, int(m)) for f, m in found]
     return int(content), [(poly.ring.from_dict(_exponents(f)), int(m)) for f, m in found]
 
 
