@@ -12,6 +12,7 @@ import numpy.typing as npt
 from ..core.declare import Parameter
 from ..core.errors import UcritError
 from ..core.model import Model
+from ..core.possible import allowed
 from ..numerics.tracking import track_adaptive
 from .convert import Series, Table, Tabular, complex_series, unit_of
 from .critical import critical, parameter_name
@@ -137,7 +138,7 @@ def locus(
 
 def _range(vehicle: Model, name: str, lower: float | None, upper: float | None) -> tuple[float, float]:
     """Complete the range and refuse one that is empty or not allowed."""
-    parameter = type(vehicle).declaration.parameters[name]
+    parameter = allowed(vehicle, name)
     lo, hi = (None if end is None else _finite(end, name) for end in (lower, upper))
     if lo is None or hi is None:
         near, far = _default(vehicle, name, parameter)

@@ -39,6 +39,9 @@ class AirplaneLateral(Model):
 
     one_mode_each = True
 
+    def possible(self):
+        return {"I_xz must lie between -sqrt(I_x I_z) and sqrt(I_x I_z)": self.I_xz**2 < self.I_x * self.I_z}
+
     def equations(self, x, dx, u):
         Y = self.Y_v * x.v + self.Y_p * x.p + self.Y_r * x.r + u.Y
         L = self.L_v * x.v + self.L_p * x.p + self.L_r * x.r + u.L

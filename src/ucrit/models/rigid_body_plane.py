@@ -14,3 +14,6 @@ class RigidBodyPlane(RigidBodySymmetric):
     I_xx = I_yy = I_xz = 0
 
     even = ("U", "X")
+
+    def possible(self):
+        return {}  # of three moments of inertia only one matters

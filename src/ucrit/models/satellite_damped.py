@@ -20,9 +20,11 @@ class SatelliteDamped(Satellite):
 
     even = ("q", "w")
 
+    def inertia(self):
+        return inertia_tensor(self.I_xx, self.I_yy + self.J, self.I_zz)
+
     def momentum(self, spin, wheel):
-        inertia = inertia_tensor(self.I_xx, self.I_yy + self.J, self.I_zz)
-        H_x, H_y, H_z = angular_momentum(inertia, spin)
+        H_x, H_y, H_z = angular_momentum(self.inertia(), spin)
         return H_x, H_y + self.J * wheel, H_z
 
     def equations(self, x, dx):

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..core.errors import UcritError, near_match
+from ..core.possible import allowed
 
 if TYPE_CHECKING:
     from ..analyses.analyze import Analysis
@@ -68,7 +69,7 @@ def map_range(analysis: Analysis, name: str, count: int, path: Locus | None = No
 
     A parameter that a root locus is drawn along takes the range of that drawing.
     """
-    declared = type(analysis.vehicle).declaration.parameters[name]
+    declared = allowed(analysis.vehicle, name)
     if path is not None and path.parameter == name:
         return np.asarray(np.linspace(path.values[0], path.values[-1], count))
     present = float(analysis.vehicle.values[name])
