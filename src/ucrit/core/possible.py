@@ -18,6 +18,8 @@ from .declare import Parameter
 from .errors import UcritError
 
 STEPS = 80
+WITHIN = 1e-7
+"""Bounds keep this share away from where statements end, which hold up to rounding."""
 
 
 def holds(model: type[Any], values: Mapping[str, Any]) -> Mapping[str, Any]:
@@ -81,15 +83,16 @@ def _upper(declared: Parameter, most: float) -> dict[str, float]:
     return {"below": math.inf, "at_most": most} if most < declared.upper else {}
 
 
-def _end(fits: Any, inside: float, bound: float, sense: int) -> float:
-    """Return the last value that fits between one inside and a bound, infinite where nothing limits it."""
-    outside = bound
+def _end(fits: Any, now: float, bound: float, sense: int) -> float:
+    """Return the last value that fits between the present one and a bound, infinite where nothing limits it."""
+    inside, outside = now, bound
     if math.isinf(bound):
-        step = abs(inside) or 1.0
-        outside = next((x for x in (inside + sense * step * 8.0**k for k in range(20)) if not fits(x)), bound)
+        step = abs(now) or 1.0
+        outside = next((x for x in (now + sense * step * 8.0**k for k in range(20)) if not fits(x)), bound)
     if math.isinf(outside) or fits(outside):
         return sense * math.inf
     for _ in range(STEPS):
         middle = (inside + outside) / 2
         inside, outside = (middle, outside) if fits(middle) else (inside, middle)
-    return inside
+    within = inside - sense * WITHIN * max(abs(inside), abs(now))
+    return within if (within - now) * sense > 0 else now

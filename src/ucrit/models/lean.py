@@ -7,6 +7,7 @@ equations hold the steer angles, not their rates, and a steer angle may jump.
 """
 
 from ..core import Model, cos, input, output, param, sin, speed, state
+from ..parts.rigid_body import inertia_tensor, possible_inertia
 from ..parts.rolling import rolling_motion
 
 
@@ -31,6 +32,9 @@ class Lean(Model):
 
     V = output("m/s", "lateral velocity of the ground point")
     r = output("rad/s", "yaw rate")
+
+    def possible(self):
+        return possible_inertia("I_1, I_2, I_3", inertia_tensor(self.I_1, self.I_2, self.I_3))
 
     def rolling(self, u):
         return rolling_motion(self.U, self.a, self.b, u.delta_f, u.delta_r)

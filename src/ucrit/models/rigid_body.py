@@ -6,7 +6,7 @@ the forces that do so: what is left follows.
 """
 
 from ..core import Model, input, param, speed, state
-from ..parts.rigid_body import components, euler, inertia_tensor, is_possible, newton
+from ..parts.rigid_body import components, euler, inertia_tensor, newton, possible_inertia
 
 
 class RigidBody(Model):
@@ -44,9 +44,8 @@ class RigidBody(Model):
         return inertia_tensor(self.I_xx, self.I_yy, self.I_zz, self.I_xy, self.I_xz, self.I_yz)
 
     def possible(self):
-        given = ", ".join(name for name in type(self).declaration.parameters if name.startswith("I_"))
-        rule = f"with {given} no principal moment of inertia may be above the sum of the other two"
-        return {rule: is_possible(self.inertia())}
+        given = [name for name in type(self).declaration.parameters if name.startswith("I_")]
+        return possible_inertia(", ".join(given), self.inertia())
 
     def equations(self, x, dx, u):
         spin = components(x, "p q r")

@@ -58,6 +58,11 @@ def is_possible(inertia: Tensor, share: float = 1e-9) -> Any:
     return true & (determinant >= -share)
 
 
+def possible_inertia(names: str, inertia: Tensor) -> dict[str, Any]:
+    """Return the statement that a tensor of inertia is possible, for a model's method ``possible``."""
+    return {f"with {names} no principal moment of inertia may be above the sum of the other two": is_possible(inertia)}
+
+
 def angular_momentum(inertia: Tensor, spin: Vector) -> Vector:
     """Return the angular momentum [N m s] about the centre of mass (Karnopp 2004, eq. (2.18))."""
     return dot(inertia[0], spin), dot(inertia[1], spin), dot(inertia[2], spin)
