@@ -72,15 +72,9 @@ def allowed(vehicle: Any, name: str) -> Parameter:
 
     least = _end(fits, float(now.min()), declared.lower, -1)
     most = _end(fits, float(now.max()), declared.upper, 1)
-    return replace(declared, **_lower(declared, least), **_upper(declared, most))
-
-
-def _lower(declared: Parameter, least: float) -> dict[str, float]:
-    return {"above": -math.inf, "at_least": least} if least > declared.lower else {}
-
-
-def _upper(declared: Parameter, most: float) -> dict[str, float]:
-    return {"below": math.inf, "at_most": most} if most < declared.upper else {}
+    if least > declared.lower:
+        declared = replace(declared, above=-math.inf, at_least=least)
+    return replace(declared, below=math.inf, at_most=most) if most < declared.upper else declared
 
 
 def _end(fits: Any, now: float, bound: float, sense: int) -> float:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from .damping import plot_damping
 from .dispatch import plot
 from .mode_shapes import plot_mode_shapes
+from .moment_line import plot_moment_line
 from .overview import plot_overview
 from .participation import plot_participation
 from .remedies import plot_remedies
@@ -21,6 +22,7 @@ __all__ = [
     "plot_locus",
     "plot_map",
     "plot_mode_shapes",
+    "plot_moment_line",
     "plot_overview",
     "plot_participation",
     "plot_remedies",

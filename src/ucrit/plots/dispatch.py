@@ -6,19 +6,20 @@ from typing import Any
 
 from ..core.errors import UcritError
 from .mode_shapes import plot_mode_shapes
+from .moment_line import plot_moment_line
 from .overview import plot_overview
 from .remedies import plot_remedies
 from .stability_map import plot_map
 
 
 def plot(result: Any, *, figure: Any = None) -> Any:
-    """Draw a result: an analysis, a root locus, modes, remedies, a stability map.
+    """Draw a result: an analysis, a root locus, modes, remedies, a stability map, lines of moment against lift.
 
     Parameters
     ----------
     result
-        What `ucrit.analyze`, `locus`, `modes`, `remedies` or `stability_map` returned. Of an analysis the
-        root locus and the damping against speed are drawn, of a vehicle without speed its modes.
+        What `ucrit.analyze`, `locus`, `modes`, `remedies`, `stability_map` or `moment_line` returned. Of an analysis
+        the root locus and the damping against speed are drawn, of a vehicle without speed its modes.
     figure
         Figure to draw into; a new one by default.
 
@@ -40,6 +41,7 @@ def plot(result: Any, *, figure: Any = None) -> Any:
     from ..analyses.analyze import Analysis
     from ..analyses.locus import Locus
     from ..analyses.modes import Modes
+    from ..analyses.pitching import MomentLine
     from ..analyses.remedies import Remedy
     from ..analyses.stability_map import StabilityMap
 
@@ -51,11 +53,13 @@ def plot(result: Any, *, figure: Any = None) -> Any:
         return plot_mode_shapes(result.list(), result.vehicle, figure=figure)
     if isinstance(result, StabilityMap):
         return plot_map(result, figure=figure)
+    if isinstance(result, MomentLine):
+        return plot_moment_line(result, figure=figure)
     if isinstance(result, tuple) and result and all(isinstance(item, Remedy) for item in result):
         return plot_remedies(result, figure=figure)
     raise UcritError(
         f"there is no drawing for {type(result).__name__}; "
-        "drawn are the results of analyze, locus, modes, remedies and stability_map"
+        "drawn are the results of analyze, locus, modes, remedies, stability_map and moment_line"
     )
 
 
