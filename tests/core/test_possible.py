@@ -45,6 +45,34 @@ def test_random_values_are_possible(name):
     assert all(np.all(true) for true in holds(model, sets).values())
 
 
+# integrals of x**2 and z**2 of the large airplane, whose moments are 25, 45 and 67 (times 1e6)
+LARGEST = 1e6 * ((45 + 67 - 25) / 2 * (25 + 45 - 67) / 2) ** 0.5
+NAVION = (1048 * 3530) ** 0.5 * 1.3558179483314004
+
+# model's vehicle, parameter, the last value that is possible: sums, differences and roots of the vehicle's others
+LIMITS = [
+    ("motorcycle-lean", "I_1", 75 - 59, 75 + 59),
+    ("motorcycle-lean", "I_2", 59 - 35, 35 + 59),
+    ("motorcycle-lean", "I_3", 75 - 35, 75 + 35),
+    ("satellite-middle-axis", "I_zz", 10, 50),
+    ("satellite-largest-axis-damped", "I_yy", 20 - 0.2, 40 - 0.2),
+    ("satellite-largest-axis-damped", "J", 20 - 19.8, 40 - 19.8),
+    ("large-airplane-symmetric", "I_xz", -LARGEST, LARGEST),
+    ("navion-lateral", "I_xz", -NAVION, NAVION),
+]
+
+
+@pytest.mark.parametrize(("name", "parameter", "least", "most"), LIMITS)
+def test_limits_of_single_parameters(name, parameter, least, most):
+    vehicle = load(name)
+    size = most - least
+    for inside in (least + 1e-4 * size, most - 1e-4 * size):
+        vehicle.with_(**{parameter: inside})
+    for outside in (least - 1e-4 * size, most + 1e-4 * size):
+        with pytest.raises(UcritError, match=f"{parameter} = "):
+            vehicle.with_(**{parameter: outside})
+
+
 REFUSED = "satellite: with I_xx, I_yy, I_zz no principal moment .* got I_xx = 31, I_yy = 20, I_zz = 10"
 
 
