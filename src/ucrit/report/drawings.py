@@ -89,9 +89,11 @@ def of_map(analysis: Analysis, asked: Sequence[str] | None, path: Locus | None) 
     names = choices.map_parameters(analysis, asked)
     if names is None:
         return None
-    ranges = {name: choices.map_range(analysis, name, MAP_POINTS, path) for name in names}
-    result = stability_map(analysis.vehicle, **ranges)
     across, up = names
+    first = choices.map_range(analysis, across, MAP_POINTS, path)
+    beside = analysis.vehicle.with_(**{across: first[[0, -1]]})
+    second = choices.map_range(analysis, up, MAP_POINTS, path, beside)
+    result = stability_map(analysis.vehicle, **{across: first, up: second})
     description = f"Map of stability over {across} and {up}: stable on {percent(result.share).lstrip('+')} of it."
     return Drawing(
         svg(plot_map(result, vehicle=analysis.vehicle), "map", description),
