@@ -6,7 +6,7 @@ from typing import Any
 
 from ...core.declare import param
 from ...core.functions import maximum, tan
-from .slip import length, rolling_share
+from .slip import length
 from .tire import Forces, Tire
 
 
@@ -37,7 +37,7 @@ class Brush(Tire):
         """
         C = self.cornering_coefficient(F_z)
         needed = C * length(kappa, tan(alpha))
-        held = 3 * self.mu * F_z * rolling_share(kappa)
+        held = 3 * self.mu * F_z * (1 + kappa)
         greater = maximum(needed, held)
         sliding = needed / greater
         return 3 * self.mu * F_z * C / greater * (1 - sliding + sliding**2 / 3), sliding

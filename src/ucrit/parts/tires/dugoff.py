@@ -6,7 +6,7 @@ from typing import Any
 
 from ...core.declare import param
 from ...core.functions import maximum, tan
-from .slip import length, rolling_share
+from .slip import is_zero, length
 from .tire import Forces, Tire
 
 
@@ -24,11 +24,12 @@ class Dugoff(Tire):
 
     def forces(self, F_z: Any, alpha: Any, kappa: Any = 0, gamma: Any = 0) -> Forces:
         """Return the forces on the wheel."""
-        along, across = self.C_x * kappa, self.C * tan(alpha)
-        twice, held = 2 * length(along, across), self.mu * F_z * rolling_share(kappa)
+        along, across = self.C_x / self.C * kappa, tan(alpha)
+        twice, held = 2 * self.C * length(along, across), self.mu * F_z * (1 + kappa)
         greater = maximum(twice, held)
-        share = self.mu * F_z / greater * (2 - held / greater)
-        return Forces(share * along, -share * across, 0)
+        used = held / greater  # below zero only where the wheel turns backward, which slides whole
+        stiffness = self.C * self.mu * F_z / greater * (2 - (used if is_zero(kappa) else maximum(used, 0)))
+        return Forces(stiffness * along, -stiffness * across, 0)
 
     def cornering_coefficient(self, F_z: Any) -> Any:
         """Return the cornering coefficient, the same for all loads."""

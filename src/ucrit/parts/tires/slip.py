@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...core.functions import atan, maximum, sqrt, where
+from ...core.functions import atan, sqrt
 
 
 def slip_angle(lateral: Any, longitudinal: Any) -> Any:
@@ -37,12 +37,14 @@ def linear_side_force(C: Any, alpha: Any) -> Any:
 
 
 def is_zero(value: Any) -> bool:
-    """Return whether a value is the plain number zero, not a symbol or an array that may be."""
-    return isinstance(value, int | float) and value == 0
+    """Return whether a value is zero itself, not a symbol or an array that may be."""
+    return bool(getattr(value, "is_zero", False)) or (isinstance(value, int | float) and value == 0)
 
 
 def length(a: Any, b: Any) -> Any:
-    """Return the length of a plane vector; where it vanishes, its slope is taken as zero.
+    """Return the length of a plane vector of pure numbers, without a corner where it vanishes.
+
+    As a formula it is then 1e-15 instead of 0, so that formulas can divide by it and be differentiated.
 
     >>> float(length(-3.0, 4.0)), length(0, -2.0)
     (5.0, 2.0)
@@ -52,9 +54,8 @@ def length(a: Any, b: Any) -> Any:
     if is_zero(b):
         return abs(a)
     square = a * a + b * b
-    return where(square > 0, sqrt(square), 0)
+    if hasattr(square, "free_symbols"):
+        import sympy
 
-
-def rolling_share(kappa: Any) -> Any:
-    """Return how much of its travel a wheel rolls, ``1 + kappa``, and zero where it is locked or turns backward."""
-    return 1 if is_zero(kappa) else maximum(1 + kappa, 0)
+        square += sympy.Rational(1, 10**30)
+    return sqrt(square)
