@@ -39,11 +39,14 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.steady import axle_loads as axle_loads
     from .analyses.steady import steady_turn as steady_turn
     from .analyses.sweep import sweep as sweep
+    from .analyses.tire_curves import cornering_coefficient as cornering_coefficient
+    from .analyses.tire_curves import tire_curves as tire_curves
     from .analyses.transfer import transfer as transfer
     from .analyses.trim import trim as trim
     from .analyses.verdict import verdict as verdict
     from .catalogue import find_model as find_model
     from .catalogue import load as load
+    from .catalogue import tire as tire
     from .checks import check_model as check  # noqa: F401
     from .checks import check_model as check_model
     from .core import Model as Model
@@ -78,6 +81,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "state": "core",
     "load": "catalogue",
     "find_model": "catalogue",
+    "tire": "catalogue",
     "analyze": "analyses.analyze",
     "criteria": "analyses.criteria",
     "critical": "analyses.critical",
@@ -92,6 +96,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "verdict": "analyses.verdict",
     "approximation": "analyses.approximation",
     "axle_loads": "analyses.steady",
+    "cornering_coefficient": "analyses.tire_curves",
     "compare": "analyses.compare",
     "frequency_response": "analyses.response",
     "impulse_response": "analyses.response",
@@ -108,6 +113,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "simulate": "analyses.simulate",
     "static_stability": "analyses.static",
     "steady_turn": "analyses.steady",
+    "tire_curves": "analyses.tire_curves",
     "transfer": "analyses.transfer",
     "trim": "analyses.trim",
     "show": "analyses.show",

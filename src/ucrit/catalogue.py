@@ -23,6 +23,10 @@ if TYPE_CHECKING:
 HERE = Path(__file__).resolve().parent
 VEHICLES = HERE / "data" / "vehicles"
 PUBLISHED = HERE / "data" / "published"
+TIRES = HERE / "data" / "tires"
+
+AS_MEASURED = ":measured"
+"""Behind the name of a tire file: with the shifts of the one tire that was measured."""
 
 
 @cache
@@ -67,11 +71,71 @@ def part_names(kind: type[Part]) -> tuple[str, ...]:
 
 
 def find_part(name: str, kind: type[Part], folder: Path | None = None) -> type[Part]:
-    """Return the law of a name that is of the kind which a slot takes; relative paths start at ``folder``."""
+    """Return the law of a name that is of the kind which a slot takes.
+
+    A tire may also be a property file (``"mine.tir"``) or one that is shipped, without the shifts of the one tire that
+    was measured, or with them (``"mine.tir:measured"``). Relative paths start at ``folder``.
+    """
     laws = _laws(kind)
-    if name not in laws:
-        raise UcritError(f"there is no {kind.__name__.lower()} law '{name}'{near_match(name, laws)}")
-    return laws[name]
+    if name in laws:
+        return laws[name]
+    file = name.removesuffix(AS_MEASURED)
+    if kind.__name__ == "Tire" and (file.lower().endswith(".tir") or file in tire_names()):
+        return tire_file(file, folder).law(symmetric=file == name)
+    shipped = tire_names() if kind.__name__ == "Tire" else ()
+    raise UcritError(f"there is no {kind.__name__.lower()} law '{name}'{near_match(name, [*laws, *shipped])}")
+
+
+def tire_names() -> tuple[str, ...]:
+    """Names of all tires that are shipped as property files.
+
+    >>> "pacejka-205-60r15" in tire_names()
+    True
+    """
+    return tuple(sorted(e.name[:-4] for e in os.scandir(TIRES) if e.name.endswith(".tir")))
+
+
+def tire_file(name: str, folder: Path | None = None) -> Any:
+    """Read a tire property file, shipped by its name or any by its path: a `ucrit.parts.tires.tir.TirFile`."""
+    from .parts.tires.tir import read_tir
+
+    if name in tire_names():
+        return read_tir(TIRES / f"{name}.tir", name)
+    return read_tir((folder or Path()) / name, name)
+
+
+def tire(name: str, **parameters: Any) -> Any:
+    """Return a tire: a law of the catalogue with its parameters, or a property file's.
+
+    Parameters
+    ----------
+    name
+        Name of a law (``"brush"``), of a shipped tire (``"pacejka-205-60r15"``), or the path of a ``.tir`` file; with
+        ``:measured`` behind it, a file's tire keeps the shifts of the one that was measured.
+    parameters
+        Values [SI, or text with a unit] of the law's parameters.
+
+    Returns
+    -------
+    ucrit.parts.tires.Tire
+
+    Raises
+    ------
+    UcritError
+        If there is no such law or file, or a value is impossible.
+
+    Examples
+    --------
+    >>> round(float(tire("pacejka-205-60r15:measured").side_force(4000, 0.05)), 3)
+    -2084.607
+    >>> round(float(tire("brush", C="1 kN/deg", mu=0.3).side_force(4000, 0.05)), 1)
+    -1059.6
+    """
+    from .parts.tires import Tire
+
+    if not isinstance(name, str):
+        raise UcritError(f"a tire is told by its name or file, got {type(name).__name__}")
+    return find_part(name, Tire)(**parameters)
 
 
 def _laws(kind: type[Part]) -> dict[str, type[Part]]:

@@ -20,6 +20,7 @@ COMMANDS = {
     "new": "new",
     "sweep": "sweep",
     "routh": "routh",
+    "tire": "tire",
     "check": "check",
     "completion": "completion",
 }

@@ -101,7 +101,8 @@ class MagicFormula(Tire):
     def _slip(self, F_z: Any, alpha: Any, kappa: Any = 0, gamma: Any = 0) -> Slip:
         if "PCY1" not in self.constants:
             raise UcritError("magic-formula: the law needs coefficients: read a .tir file, or MagicFormula.of({...})")
-        c = Coefficients(self, NEUTRAL, SHIFTS if self._is("SYMMETRIC", "yes") else ())
+        odd = SHIFTS if self._is("FORMULAS", "6.1") else (*SHIFTS, "QDZ3")  # 5.2 has the camber's sign with it
+        c = Coefficients(self, NEUTRAL, odd if self._is("SYMMETRIC", "yes") else ())
         N = self.LFZO * self.FNOMIN
         a = tan(alpha) if self._is("SLIP", "tangent") else alpha
         g = gamma if is_zero(gamma) or self._is("CAMBER", "angle") else sin(gamma)

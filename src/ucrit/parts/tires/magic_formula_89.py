@@ -50,11 +50,9 @@ class MagicFormula89(Tire):
 
     @property
     def _numbers(self) -> Coefficients:
-        return Coefficients(self, {}, SHIFTS if self.constants.get("SYMMETRIC") == "yes" else ())
-
-    def _needed(self) -> None:
         if not self.constants:
             raise UcritError("magic-formula-89: the law needs its coefficients: MagicFormula89.of({'a0': 1.3, ...})")
+        return Coefficients(self, {}, SHIFTS if self.constants.get("SYMMETRIC") == "yes" else ())
 
     def _side(self, c: Any, F: Any, alpha: Any, gamma: Any) -> Any:
         """Return the side force [N] that goes with a slip angle [degrees], for a load in kN and a camber in degrees."""
@@ -110,8 +108,10 @@ class MagicFormula89(Tire):
         """Return both forces [N] at the length of both slips, the longitudinal one told as an angle as stiff as it."""
         scale = self._along_slope(c, F) / self._side_slope(c, F)
         both = length(kappa * scale, alpha)
-        F_x = _share(lambda x: self._along(c, F, x / scale), kappa * scale, both, self._along_slope(c, F) / scale)
-        F_y = _share(lambda x: self._side(c, F, x, gamma), alpha, both, self._side_slope(c, F, gamma))
+        odd = all(is_zero(getattr(c, name)) for name in SHIFTS)
+        F_x = _share(lambda x: self._along(c, F, x / scale), kappa * scale, both, self._along_slope(c, F) / scale, odd)
+        straight = odd and is_zero(gamma)
+        F_y = _share(lambda x: self._side(c, F, x, gamma), alpha, both, self._side_slope(c, F, gamma), straight)
         return F_x, F_y
 
     def cornering_coefficient(self, F_z: Any) -> Any:
@@ -123,10 +123,12 @@ class MagicFormula89(Tire):
         return self.F_unit / 1000 * self._along_slope(self._numbers, F_z / self.F_unit) * 100
 
 
-def _share(force: Callable[[Any], Any], slip: Any, both: Any, slope: Any) -> Any:
+def _share(force: Callable[[Any], Any], slip: Any, both: Any, slope: Any, is_odd: bool) -> Any:
     """Return a force's share for one slip out of both: that of its odd part, and the square of it of its even part."""
     any_slip = both > 0
     full = where(any_slip, both, 1)
+    if is_odd:
+        return where(any_slip, force(full) / full, slope) * slip
     ahead, behind = force(full), force(-full)
     odd = where(any_slip, (ahead - behind) / 2 / full, slope) * slip
     return odd + where(any_slip, (ahead + behind) / 2 * (slip / full) ** 2, force(0))
