@@ -90,7 +90,9 @@ class TireCurves(Tabular):
         count = max(self.alpha.size, self.kappa.size)
 
         def padded(values: Array) -> Array:
-            return np.pad(values, [(0, 0)] * (values.ndim - 1) + [(0, count - values.shape[-1])], constant_values=np.nan)
+            return np.pad(
+                values, [(0, 0)] * (values.ndim - 1) + [(0, count - values.shape[-1])], constant_values=np.nan
+            )
 
         coords = (
             Series("road", ("road",), np.array(list(self.roads)), ""),
@@ -208,7 +210,9 @@ def cornering_coefficient(alpha: Sequence[float] | Array, force: Sequence[float]
         raise UcritError(f"unit of the slip angles cannot be '{unit}'{near_match(unit, ANGLES)}")
     x, y = (np.asarray(v, dtype=float).ravel() for v in (alpha, force))
     if x.size != y.size or np.unique(x).size < 3 or not np.isfinite([*x, *y]).all():
-        raise UcritError(f"a slope needs three or more points, as many forces as slip angles; got {x.size} and {y.size}")
+        raise UcritError(
+            f"a slope needs three or more points, as many forces as slip angles; got {x.size} and {y.size}"
+        )
     x = x * ANGLES[unit]
     scale = np.abs(x).max()
     columns = np.stack([x / scale, (x / scale) ** 3, *([np.ones_like(x)] if x.min() < 0 else [])], axis=1)

@@ -35,7 +35,7 @@ def function_symbols(expressions: Iterable[Any], parameters: Mapping[Any, Parame
 
 def _assumption(function: Any, parameters: Mapping[Any, Parameter]) -> dict[str, bool]:
     """Assumptions for a sine, cosine, tangent or exponential of one parameter, from the parameter's bounds."""
-    if isinstance(function, sp.exp):
+    if isinstance(function, sp.exp) or function.is_positive:
         return {"positive": True}
     parameter = parameters.get(function.args[0])
     if parameter is None:

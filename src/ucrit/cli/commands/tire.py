@@ -21,7 +21,9 @@ ENDINGS = (".csv", ".json", ".mat", ".nc", *PICTURES)
 @click.option("--set", "changes", metavar="NAME=VALUE", multiple=True, help="Set a parameter; may be repeated.")
 @click.option("--road", "roads", metavar="NAME=FACTOR", multiple=True, help="Friction of a road: ice=0.1; repeatable.")
 @click.option("--out", "-o", metavar="FILE", help="Write curves: .png .svg .pdf; .csv .json .mat .nc.")
-def command(tire: str, loads: tuple[str, ...], changes: tuple[str, ...], roads: tuple[str, ...], out: str | None) -> None:
+def command(
+    tire: str, loads: tuple[str, ...], changes: tuple[str, ...], roads: tuple[str, ...], out: str | None
+) -> None:
     """Show version, units and axes of a tire file, and what the tire does under some loads.
 
     TIRE is the name of a tire that is shipped, a .tir file, or the name of a law that --set gives numbers to. A
@@ -95,7 +97,9 @@ def _show(curves: TireCurves, name: str) -> None:
         rows = [_row(curves, road, i) for i in range(curves.loads.size)]
         page.table([units, *rows], head, right=range(len(head)))
     page.line()
-    page.paragraph("A dash: the law does not tell, or the force still rises at 20 degrees or at the locked wheel.", "dim")
+    page.paragraph(
+        "A dash: the law does not tell, or the force still rises at 20 degrees or at the locked wheel.", "dim"
+    )
 
 
 def _file(page: Any, name: str) -> None:

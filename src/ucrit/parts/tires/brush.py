@@ -29,20 +29,19 @@ class Brush(Tire):
         """Return the longitudinal force per slip, the same as across the wheel."""
         return self.cornering_coefficient(F_z)
 
-    def bent(self, F_z: Any, alpha: Any, kappa: Any) -> tuple[Any, Any]:
-        """Return force per slip [N], and which share of the contact patch slides.
+    def bent(self, F_z: Any, alpha: Any, kappa: Any) -> tuple[Any, Any, Any]:
+        """Return the force [N], the slip that both slips are divided by for their share of it, and which share slides.
 
         The patch slides whole where the force that the bristles would need, a third of it their stiffness times the
         slip, is above that of friction; a locked wheel, which has no bristles that come anew, slides whole.
         """
-        C = self.cornering_coefficient(F_z)
-        needed = C * length(kappa, tan(alpha))
-        held = 3 * self.mu * F_z * (1 + kappa)
-        greater = maximum(needed, held)
-        sliding = needed / greater
-        return 3 * self.mu * F_z * C / greater * (1 - sliding + sliding**2 / 3), sliding
+        held = 3 * self.mu * F_z / self.cornering_coefficient(F_z) * (1 + kappa)
+        slip = length(kappa, tan(alpha))
+        greater = maximum(slip, held)
+        sliding = slip / greater
+        return self.mu * F_z * (3 - 3 * sliding + sliding**2), greater, sliding
 
     def forces(self, F_z: Any, alpha: Any, kappa: Any = 0, gamma: Any = 0) -> Forces:
         """Return the forces on the wheel."""
-        stiffness, _ = self.bent(F_z, alpha, kappa)
-        return Forces(stiffness * kappa, -stiffness * tan(alpha), 0)
+        force, greater, _ = self.bent(F_z, alpha, kappa)
+        return Forces(force * (kappa / greater), -force * (tan(alpha) / greater), 0)

@@ -20,7 +20,7 @@ class BrushMoment(Brush):
 
     def forces(self, F_z: Any, alpha: Any, kappa: Any = 0, gamma: Any = 0) -> Forces:
         """Return the forces on the wheel."""
-        stiffness, sliding = self.bent(F_z, alpha, kappa)
-        F_y = -stiffness * tan(alpha)
+        force, greater, sliding = self.bent(F_z, alpha, kappa)
+        F_y = -force * (tan(alpha) / greater)
         trail = self.l_c / 3 * (1 - sliding) ** 3 / (1 - sliding + sliding**2 / 3)
-        return Forces(stiffness * kappa, F_y, -trail * F_y)
+        return Forces(force * (kappa / greater), F_y, -trail * F_y)

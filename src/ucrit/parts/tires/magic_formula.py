@@ -28,7 +28,7 @@ from typing import Any, ClassVar
 
 from ...core.declare import param
 from ...core.errors import UcritError
-from ...core.functions import atan, cos, exp, maximum, minimum, sign, sin, sqrt, tan, where
+from ...core.functions import atan, cos, exp, grouped, maximum, minimum, sign, sin, sqrt, tan, where
 from .coefficients import Coefficients, check_switches, curve
 from .slip import is_zero
 from .tire import Forces, Tire
@@ -107,7 +107,7 @@ class MagicFormula(Tire):
         a = tan(alpha) if self._is("SLIP", "tangent") else alpha
         g = gamma if is_zero(gamma) or self._is("CAMBER", "angle") else sin(gamma)
         pressure = (c.INFLPRES - c.NOMPRES) / c.NOMPRES if c.NOMPRES and c.INFLPRES else 0
-        return Slip(c, F_z, N, (F_z - N) / N, a, kappa, g, pressure)
+        return Slip(c, F_z, N, grouped((F_z - N) / N), a, kappa, g, pressure)
 
     def forces(self, F_z: Any, alpha: Any, kappa: Any = 0, gamma: Any = 0) -> Forces:
         """Return the forces on the wheel."""
@@ -142,7 +142,9 @@ class MagicFormula(Tire):
         if k_y is None and c.PTY1:
             return c.PTY1 * _twice(F_z / (c.PTY2 * s.N)) * self.UNLOADED_RADIUS * self.LFZO * c.LSGAL
         if k_y is None and not c.LATERAL_STIFFNESS:
-            raise UcritError(f"{self.part_id()}: it has no PTY1 and no LATERAL_STIFFNESS; give the sidewall's stiffness")
+            raise UcritError(
+                f"{self.part_id()}: it has no PTY1 and no LATERAL_STIFFNESS; give the sidewall's stiffness"
+            )
         return super().relaxation_length(F_z, k_y or c.LATERAL_STIFFNESS)
 
     def longitudinal_relaxation_length(self, F_z: Any, k_x: Any = None) -> Any:
@@ -281,7 +283,7 @@ class MagicFormula(Tire):
 
 def _twice(u: Any) -> Any:
     """Return ``sin(2 atan u)``, written without angles."""
-    return 2 * u / (1 + u * u)
+    return grouped(2 * u / (1 + u * u))
 
 
 def _weight(B: Any, C: Any, E: Any, slip: Any, shift: Any) -> Any:

@@ -37,9 +37,7 @@ DIMENSIONS: dict[str, dict[str, int]] = {
     **dict.fromkeys(("FNOMIN", "FZMIN", "FZMAX"), {"FORCE": 1}),
     **dict.fromkeys(("UNLOADED_RADIUS", "WIDTH", "RIM_RADIUS", "RIM_WIDTH"), {"LENGTH": 1}),
     **dict.fromkeys(("INFLPRES", "NOMPRES", "PRESMIN", "PRESMAX"), {"FORCE": 1, "LENGTH": -2}),
-    **dict.fromkeys(
-        ("VERTICAL_STIFFNESS", "LATERAL_STIFFNESS", "LONGITUDINAL_STIFFNESS"), {"FORCE": 1, "LENGTH": -1}
-    ),
+    **dict.fromkeys(("VERTICAL_STIFFNESS", "LATERAL_STIFFNESS", "LONGITUDINAL_STIFFNESS"), {"FORCE": 1, "LENGTH": -1}),
     **dict.fromkeys(("LONGVL", "VXLOW"), {"LENGTH": 1, "TIME": -1}),
     **dict.fromkeys(("ALPMIN", "ALPMAX", "CAMMIN", "CAMMAX"), {"ANGLE": 1}),
 }
@@ -145,9 +143,7 @@ def _text(path: Path) -> str:
         return content.decode("latin-1")
 
 
-def _sections(
-    text: str, name: str
-) -> tuple[dict[str, tuple[float, str]], dict[str, tuple[str, str]], tuple[str, ...]]:
+def _sections(text: str, name: str) -> tuple[dict[str, tuple[float, str]], dict[str, tuple[str, str]], tuple[str, ...]]:
     """Return numbers and texts by key, each with its section, and the comments."""
     section, numbers, texts, comments = "", {}, {}, []
     for count, whole in enumerate(text.splitlines(), 1):
