@@ -81,7 +81,8 @@ def find_part(name: str, kind: type[Part], folder: Path | None = None) -> type[P
         return laws[name]
     file = name.removesuffix(AS_MEASURED)
     if kind.__name__ == "Tire" and (file.lower().endswith(".tir") or file in tire_names()):
-        return tire_file(file, folder).law(symmetric=file == name)
+        law: type[Part] = tire_file(file, folder).law(symmetric=file == name)
+        return law
     shipped = tire_names() if kind.__name__ == "Tire" else ()
     raise UcritError(f"there is no {kind.__name__.lower()} law '{name}'{near_match(name, [*laws, *shipped])}")
 

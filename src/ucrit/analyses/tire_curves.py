@@ -76,7 +76,7 @@ class TireCurves(Tabular):
 
     @property
     def peak_braking(self) -> tuple[Array, Array]:
-        """Greatest braking force [N], and its slip kappa; nan if only the locked wheel reaches it, shape (R, L) each."""
+        """Greatest braking force [N], and its slip kappa; nan if only the locked wheel has it, shape (R, L) each."""
         braking = np.flatnonzero(self.kappa <= 0)[::-1]
         return _peak(-self.F_x[..., braking], self.kappa[braking])
 
@@ -176,9 +176,11 @@ def tire_curves(
 
     return TireCurves(
         *(tire, surfaces, F_z, angles, slips, combined),
-        *(stacked(free, name, angles.size) for name in ("F_y", "M_z")),
-        stacked(straight, "F_x", slips.size),
-        *(stacked(both, name, combined.size, slips.size) for name in ("F_x", "F_y")),
+        F_y=stacked(free, "F_y", angles.size),
+        M_z=stacked(free, "M_z", angles.size),
+        F_x=stacked(straight, "F_x", slips.size),
+        envelope_x=stacked(both, "F_x", combined.size, slips.size),
+        envelope_y=stacked(both, "F_y", combined.size, slips.size),
     )
 
 

@@ -23,6 +23,8 @@ def plot(result: Any, *, figure: Any = None) -> Any:
         What `ucrit.analyze`, `locus`, `modes`, `remedies`, `stability_map` or `moment_line` returned. Of an analysis
         the root locus and the damping against speed are drawn, of a vehicle without speed its modes.
         What `ucrit.analyze`, `locus`, `modes`, `remedies`, `stability_map` or `tire_curves` returned. Of an analysis the
+        What `ucrit.analyze`, `locus`, `modes`, `remedies`, `stability_map` or `tire_curves` returned.
+        Of an analysis the
         root locus and the damping against speed are drawn, of a vehicle without speed its modes.
     figure
         Figure to draw into; a new one by default.

@@ -71,7 +71,8 @@ def _write(curves: TireCurves, out: str) -> None:
     elif out.endswith(".nc"):
         curves.to_xarray().to_netcdf(out)
     else:
-        {".csv": curves.to_csv, ".json": curves.to_json, ".mat": curves.to_mat}[out[out.rindex(".") :]](out)
+        write: dict[str, Any] = {".csv": curves.to_csv, ".json": curves.to_json, ".mat": curves.to_mat}
+        write[out[out.rindex(".") :]](out)
 
 
 def _show(curves: TireCurves, name: str) -> None:

@@ -48,7 +48,7 @@ NEUTRAL = MappingProxyType({**dict.fromkeys(FACTORS, 1), "PKY4": 2})
 
 @dataclass(frozen=True)
 class Slip:
-    """What all terms share: coefficients c, load F, nominal load N, its excess d, slips a and k, camber g, pressure p."""
+    """What all terms share: coefficients c, load F, nominal load N, excess d, slips a and k, camber g, pressure p."""
 
     c: Any
     F: Any

@@ -13,7 +13,7 @@ from typing import Any, ClassVar
 
 from ...core.declare import param
 from ...core.errors import UcritError
-from ...core.functions import exp, sin, where
+from ...core.functions import exp, grouped, sin, where
 from .coefficients import Coefficients, check_switches, curve
 from .slip import is_zero, length
 from .tire import Forces, Tire
@@ -89,7 +89,7 @@ class MagicFormula89(Tire):
 
     def forces(self, F_z: Any, alpha: Any, kappa: Any = 0, gamma: Any = 0) -> Forces:
         """Return the forces on the wheel."""
-        c, F, degrees = self._numbers, F_z / self.F_unit, 180 / _pi(alpha)
+        c, F, degrees = self._numbers, grouped(F_z / self.F_unit), 180 / _pi(alpha)
         newton = self.F_unit / 1000
         slip, lean = -alpha * degrees, gamma if is_zero(gamma) else -gamma * degrees
         if is_zero(kappa):
@@ -102,7 +102,7 @@ class MagicFormula89(Tire):
     def side_force(self, F_z: Any, alpha: Any) -> Any:
         """Return the side force [N] of an upright wheel that rolls freely."""
         slip = -alpha * 180 / _pi(alpha)
-        return self.F_unit / 1000 * self._side(self._numbers, F_z / self.F_unit, slip, 0)
+        return self.F_unit / 1000 * self._side(self._numbers, grouped(F_z / self.F_unit), slip, 0)
 
     def _combined(self, c: Any, F: Any, alpha: Any, kappa: Any, gamma: Any) -> tuple[Any, Any]:
         """Return both forces [N] at the length of both slips, the longitudinal one told as an angle as stiff as it."""

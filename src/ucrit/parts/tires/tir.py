@@ -25,8 +25,14 @@ FITTYP = {6: ("5.2", "MF 5.2"), 52: ("5.2", "MF 5.2"), 61: ("6.1", "MF 6.1"), 62
 UNITS: dict[str, dict[str, float]] = {
     "LENGTH": {"meter": 1, "m": 1, "mm": 1e-3, "cm": 1e-2, "km": 1e3, "inch": 0.0254, "foot": 0.3048},
     "FORCE": {
-        **{"newton": 1, "n": 1, "kilonewton": 1e3, "kn": 1e3, "kg_force": 9.80665, "kgf": 9.80665},
-        **{"pound_force": 4.4482216152605, "lbf": 4.4482216152605},
+        "newton": 1,
+        "n": 1,
+        "kilonewton": 1e3,
+        "kn": 1e3,
+        "kg_force": 9.80665,
+        "kgf": 9.80665,
+        "pound_force": 4.4482216152605,
+        "lbf": 4.4482216152605,
     },
     "ANGLE": {"radian": 1, "rad": 1, "degree": 0.017453292519943295, "deg": 0.017453292519943295},
     "MASS": {"kg": 1, "gram": 1e-3, "pound_mass": 0.45359237, "slug": 14.59390293720636},
@@ -34,12 +40,14 @@ UNITS: dict[str, dict[str, float]] = {
 }
 
 DIMENSIONS: dict[str, dict[str, int]] = {
-    **dict.fromkeys(("FNOMIN", "FZMIN", "FZMAX"), {"FORCE": 1}),
-    **dict.fromkeys(("UNLOADED_RADIUS", "WIDTH", "RIM_RADIUS", "RIM_WIDTH"), {"LENGTH": 1}),
-    **dict.fromkeys(("INFLPRES", "NOMPRES", "PRESMIN", "PRESMAX"), {"FORCE": 1, "LENGTH": -2}),
-    **dict.fromkeys(("VERTICAL_STIFFNESS", "LATERAL_STIFFNESS", "LONGITUDINAL_STIFFNESS"), {"FORCE": 1, "LENGTH": -1}),
-    **dict.fromkeys(("LONGVL", "VXLOW"), {"LENGTH": 1, "TIME": -1}),
-    **dict.fromkeys(("ALPMIN", "ALPMAX", "CAMMIN", "CAMMAX"), {"ANGLE": 1}),
+    **{key: {"FORCE": 1} for key in ("FNOMIN", "FZMIN", "FZMAX")},
+    **{key: {"LENGTH": 1} for key in ("UNLOADED_RADIUS", "WIDTH", "RIM_RADIUS", "RIM_WIDTH")},
+    **{key: {"FORCE": 1, "LENGTH": -2} for key in ("INFLPRES", "NOMPRES", "PRESMIN", "PRESMAX")},
+    **{
+        key: {"FORCE": 1, "LENGTH": -1} for key in ("VERTICAL_STIFFNESS", "LATERAL_STIFFNESS", "LONGITUDINAL_STIFFNESS")
+    },
+    **{key: {"LENGTH": 1, "TIME": -1} for key in ("LONGVL", "VXLOW")},
+    **{key: {"ANGLE": 1} for key in ("ALPMIN", "ALPMAX", "CAMMIN", "CAMMAX")},
 }
 """Keys with a dimension."""
 
