@@ -130,7 +130,7 @@ def tire(name: str, **parameters: Any) -> Any:
     >>> round(float(tire("pacejka-205-60r15:measured").side_force(4000, 0.05)), 3)
     -2084.607
     >>> round(float(tire("brush", C="1 kN/deg", mu=0.3).side_force(4000, 0.05)), 1)
-    -1059.6
+    -1189.9
     """
     from .parts.tires import Tire
 

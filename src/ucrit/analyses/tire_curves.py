@@ -241,7 +241,7 @@ def _numbers(values: Any, what: str, unit: str, above: float = -np.inf) -> Array
 
 
 def _peak(forces: Array, slips: Array) -> tuple[Array, Array]:
-    """Return the greatest value and its slip, refined by a parabola; at an end of the slips the slip is nan."""
+    """Return the greatest value and its slip, refined by a parabola if it is a summit; at an end of the slips the slip is nan."""
     at = np.argmax(forces >= forces.max(-1, keepdims=True) * (1 - 1e-9), axis=-1)  # the first of a plateau
     ends = (at == 0) | (at == slips.size - 1)
     i = np.clip(at, 1, slips.size - 2)
@@ -250,7 +250,7 @@ def _peak(forces: Array, slips: Array) -> tuple[Array, Array]:
     left, right = (mid - low) / (x_1 - x_0), (high - mid) / (x_2 - x_1)
     bend = (right - left) / (x_2 - x_0)
     with np.errstate(all="ignore"):
-        step = np.where(bend < 0, (x_0 + x_1) / 2 - left / (2 * bend) - x_1, 0.0)
+        step = np.where((bend < 0) & (high < mid * (1 - 1e-9)), (x_0 + x_1) / 2 - left / (2 * bend) - x_1, 0.0)
     top = mid + step * (left + bend * (x_1 + step - x_0))
     return np.where(ends, forces.max(-1), np.maximum(top, mid)), np.where(ends, np.nan, x_1 + step)
 
