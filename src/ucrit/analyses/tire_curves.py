@@ -241,7 +241,7 @@ def _numbers(values: Any, what: str, unit: str, above: float = -np.inf) -> Array
 
 
 def _peak(forces: Array, slips: Array) -> tuple[Array, Array]:
-    """Return the greatest value and its slip, refined by a parabola if it is a summit; at an end of the slips the slip is nan."""
+    """Return the greatest value and its slip, a summit by a parabola; at an end of the slips the slip is nan."""
     at = np.argmax(forces >= forces.max(-1, keepdims=True) * (1 - 1e-9), axis=-1)  # the first of a plateau
     ends = (at == 0) | (at == slips.size - 1)
     i = np.clip(at, 1, slips.size - 2)
