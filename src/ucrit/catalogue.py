@@ -98,8 +98,7 @@ def tire_names() -> tuple[str, ...]:
 
 def tire_file(name: str, folder: Path | None = None) -> Any:
     """Read a tire property file, shipped by its name or any by its path: a `ucrit.parts.tires.tir.TirFile`."""
-    from .parts.tires.tir import read_tir
-
+    read_tir: Any = importlib.import_module("ucrit.parts.tires.tir").read_tir
     if name in tire_names():
         return read_tir(TIRES / f"{name}.tir", name)
     return read_tir((folder or Path()) / name, name)
@@ -132,11 +131,10 @@ def tire(name: str, **parameters: Any) -> Any:
     >>> round(float(tire("brush", C="1 kN/deg", mu=0.3).side_force(4000, 0.05)), 1)
     -1189.9
     """
-    from .parts.tires import Tire
-
     if not isinstance(name, str):
         raise UcritError(f"a tire is told by its name or file, got {type(name).__name__}")
-    return find_part(name, Tire)(**parameters)
+    kind: type[Part] = importlib.import_module("ucrit.parts.tires").Tire
+    return find_part(name, kind)(**parameters)
 
 
 def _laws(kind: type[Part]) -> dict[str, type[Part]]:

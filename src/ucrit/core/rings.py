@@ -14,6 +14,7 @@ from sympy.polys.constructor import construct_domain
 from sympy.polys.rings import PolyElement, PolyRing
 
 from .declare import Parameter
+from .grouped import Group
 
 Swap = dict[Any, Any]
 Row = list[list[Any]]  # row[j][k]: coefficient of the k-th derivative of variable j
@@ -28,7 +29,7 @@ def function_symbols(expressions: Iterable[Any], parameters: Mapping[Any, Parame
     found: set[Any] = set()
     for expression in expressions:
         found |= {f for f in sp.sympify(expression).atoms(sp.Function) if f.free_symbols}
-    outer = [f for f in found if not any(f in g.atoms(sp.Function) and f != g for g in found)]
+    outer = [f for f in found if isinstance(f, Group) or not any(f in g.atoms(sp.Function) and f != g for g in found)]
     swap = {f: sp.Symbol(str(f), **_assumption(f, parameters)) for f in sorted(outer, key=str)}
     return swap, {symbol: f for f, symbol in swap.items()}
 

@@ -125,7 +125,7 @@ class MagicFormula89(Tire):
 
 def _share(force: Callable[[Any], Any], slip: Any, both: Any, slope: Any, is_odd: bool) -> Any:
     """Return a force's share for one slip out of both: that of its odd part, and the square of it of its even part."""
-    any_slip = both > 0
+    any_slip = both > 1e-12  # as formulas, lengths are never quite zero
     full = where(any_slip, both, 1)
     if is_odd:
         return where(any_slip, force(full) / full, slope) * slip
