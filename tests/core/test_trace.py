@@ -142,3 +142,5 @@ def test_a_group_is_one_thing_to_polynomials_and_its_content_to_everything_else(
     assert float(group.subs({a: 2, b: 4})) == 1.5
     assert str(2 * group) == "2*(a/b + 1)"
     assert "Group" not in sp.latex(group) + sp.mathml(group, printer="presentation") + typeset.text(group)
+    for module in ("numpy", "mpmath", "math"):
+        assert sp.lambdify([a, b], 2 * group, module)(2, 4) == 3

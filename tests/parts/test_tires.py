@@ -303,3 +303,9 @@ def test_scale_factors_and_roads():
 def test_what_cannot_be_is_refused(wrong, message):
     with pytest.raises(UcritError, match=message):
         wrong()
+
+
+def test_a_model_with_a_file_tire_passes_every_check():
+    report = ucrit.check(Sledge.fitted(tire=find_part("pacejka-205-60r15", Tire)))
+    assert "FAIL" not in str(report)
+    assert "pass  compiled functions" in str(report)

@@ -40,7 +40,7 @@ class Group(sp.Function):  # type: ignore[misc]
         text: str = printer._print(self.args[0])
         return f"({text})"
 
-    _numpycode = _pythoncode = _sympystr = _written
+    _numpycode = _mpmathcode = _lambdacode = _pythoncode = _sympystr = _written
 
     def _latex(self, printer: Any, *_: Any, **__: Any) -> str:
         return rf"\left({printer._print(self.args[0])}\right)"
