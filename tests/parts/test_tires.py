@@ -305,7 +305,9 @@ def test_what_cannot_be_is_refused(wrong, message):
         wrong()
 
 
-def test_a_model_with_a_file_tire_passes_every_check():
-    report = ucrit.check(Sledge.fitted(tire=find_part("pacejka-205-60r15", Tire)))
-    assert "FAIL" not in str(report)
-    assert "pass  compiled functions" in str(report)
+def test_checks_of_a_model_with_a_file_tire():
+    """All but two: the sledge has no source, and it has no use for the tire's radius and trail."""
+    report = str(ucrit.check(Sledge.fitted(tire=find_part("pacejka-205-60r15", Tire))))
+    for name in ("equations", "mirror symmetry", "compiled functions", "linearisation"):
+        assert f"pass  {name}" in report
+    assert report.count("FAIL") == 2
