@@ -20,12 +20,7 @@ def check_dimensions(traced: Traced) -> None:
 
     Multipliers of constraints take whatever unit makes their terms fit; a clash elsewhere is still found.
     """
-    declared = traced.model.declaration
-    known = {symbol: declared.parameters[name].dimension for name, symbol in traced.parameters.items()}
-    per_second = Dimension(0, 0, -1)
-    for variable, chain in zip(declared.variables.values(), traced.q, strict=False):
-        known.update({symbol: variable.dimension.times(per_second, k) for k, symbol in enumerate(chain)})
-    known.update(zip(traced.u, (i.dimension for i in declared.inputs.values()), strict=True))
+    declared, known = traced.model.declaration, _known(traced)
     free = {chain[0] for chain in traced.q[len(declared.variables) :]}
     where = traced.model.model_id()
     for number, residual in enumerate(traced.residuals, 1):
@@ -34,6 +29,22 @@ def check_dimensions(traced: Traced) -> None:
         found = _dimension(expression, known, f"{where}: output {output.name}")
         if found is not None and found != output.dimension:
             raise ModelError(f"{where}: output {output.name} is declared in {output.unit} but comes out in {found}")
+
+
+def check_sum(traced: Traced, expression: Any, where: str) -> None:
+    """Raise `ModelError` if an expression combines unlike units; its own unit may be any."""
+    _dimension(expression, _known(traced), where)
+
+
+def _known(traced: Traced) -> dict[Any, Dimension]:
+    """Return the dimensions of all declared symbols."""
+    declared = traced.model.declaration
+    known = {symbol: declared.parameters[name].dimension for name, symbol in traced.parameters.items()}
+    per_second = Dimension(0, 0, -1)
+    for variable, chain in zip(declared.variables.values(), traced.q, strict=False):
+        known.update({symbol: variable.dimension.times(per_second, k) for k, symbol in enumerate(chain)})
+    known.update(zip(traced.u, (i.dimension for i in declared.inputs.values()), strict=True))
+    return known
 
 
 def _dimension(expression: Any, known: dict[Any, Dimension], where: str) -> Dimension | None:

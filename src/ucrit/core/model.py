@@ -11,6 +11,8 @@ one of three ways (argument names choose what is passed; ``x`` values, ``dx`` an
 
 ``outputs(self, x, dx, ddx, u)`` returns a dictionary, ``basic_motion(self)`` one with the keys ``x``, ``dx`` and ``u``.
 ``possible(self)`` says what values of several parameters may be together (see `ucrit.core.possible`).
+``events(self, x, dx, ddx, u)`` returns what shall be noticed along the motion (see `ucrit.core.events`),
+``drawing(self, x, u)`` what the vehicle looks like (see `ucrit.core.drawing`).
 Any method named ``equations_<how>`` is a further derivation of the same vehicle, compared with the first.
 """
 
@@ -38,6 +40,8 @@ ARGUMENTS = {
     "constraints": ("x", "dx"),
     "matrices": (),
     "outputs": ("x", "dx", "ddx", "u"),
+    "events": ("x", "dx", "ddx", "u"),
+    "drawing": ("x", "u"),
     "basic_motion": (),
 }
 STATEMENTS = ("equations", "kinetic_energy", "matrices", "closed_loop")
