@@ -23,6 +23,13 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.listing import listing as list  # noqa: F401
     from .analyses.listing import template as new  # noqa: F401
     from .analyses.locus import locus as locus
+    from .analyses.manoeuvres import Gust as Gust
+    from .analyses.manoeuvres import Measured as Measured
+    from .analyses.manoeuvres import Pulse as Pulse
+    from .analyses.manoeuvres import Ramp as Ramp
+    from .analyses.manoeuvres import Sine as Sine
+    from .analyses.manoeuvres import SineWithDwell as SineWithDwell
+    from .analyses.manoeuvres import Step as Step
     from .analyses.modes import modes as modes
     from .analyses.pitching import moment_line as moment_line
     from .analyses.pitching import static_margin as static_margin
@@ -111,6 +118,13 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "static_margin": "analyses.pitching",
     "routh": "analyses.routh",
     "simulate": "analyses.simulate",
+    "Step": "analyses.manoeuvres",
+    "Ramp": "analyses.manoeuvres",
+    "Sine": "analyses.manoeuvres",
+    "SineWithDwell": "analyses.manoeuvres",
+    "Pulse": "analyses.manoeuvres",
+    "Gust": "analyses.manoeuvres",
+    "Measured": "analyses.manoeuvres",
     "static_stability": "analyses.static",
     "steady_turn": "analyses.steady",
     "tire_curves": "analyses.tire_curves",
