@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.analyze import analyze as analyze
     from .analyses.approximation import approximation as approximation
+    from .analyses.audit import audit as audit
     from .analyses.compare import compare as compare
     from .analyses.convert import to_control as to_control
     from .analyses.convert import to_scipy as to_scipy
@@ -102,6 +103,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "to_scipy": "analyses.convert",
     "verdict": "analyses.verdict",
     "approximation": "analyses.approximation",
+    "audit": "analyses.audit",
     "axle_loads": "analyses.steady",
     "cornering_coefficient": "analyses.tire_curves",
     "compare": "analyses.compare",
