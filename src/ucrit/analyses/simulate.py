@@ -54,7 +54,8 @@ def simulate(
         the basic motion. A one-dimensional array spans a dimension of its own, behind those of the vehicle.
     inputs
         Values of inputs by name: constant; a `Step`, `Ramp`, `Sine`, `SineWithDwell`, `Pulse`, `Gust` or a
-        `Measured` table, whose kinks are met exactly, or such a shape as text (``"step 2 deg at 1 s"``); or a smooth function of time.
+        `Measured` table, whose kinks are met exactly, or such a shape as text (``"step 2 deg at 1 s"``); or a smooth
+        function of time.
         The others are those of the basic motion.
     times
         Times of the result [s]; by default 400 from 0 to the last, or to the event that ends the motion.

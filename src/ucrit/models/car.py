@@ -3,7 +3,8 @@
 Slip angles are those of the tires' contact points to their wheels' planes; steer angles positive to the right.
 """
 
-from ..core import Model, cos, input, output, param, speed, state
+from ..core import Drawing, Model, cos, input, output, param, speed, state
+from ..parts.shapes import car
 from ..parts.tires import linear_side_force, slip_angle
 
 
@@ -51,3 +52,6 @@ class Car(Model):
             "alpha_f": front,
             "alpha_r": rear,
         }
+
+    def drawing(self, x, u):
+        return Drawing("top", car(self.a, self.b, u.delta_f, u.delta_r), turned=True, travel=(self.U, x.V, x.r))

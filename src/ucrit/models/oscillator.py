@@ -3,7 +3,8 @@
 The spring and the damper may also push where others pull: negative k and b stand for forces that drive the mass.
 """
 
-from ..core import Model, coordinate, param
+from ..core import Drawing, Model, coordinate, param
+from ..parts.shapes import mass_on_a_spring
 
 
 class Oscillator(Model):
@@ -26,3 +27,6 @@ class Oscillator(Model):
 
     def equations_newton(self, x, dx, ddx):
         return self.m * ddx.x + self.b * dx.x + self.k * x.x
+
+    def drawing(self, x):
+        return Drawing("side", mass_on_a_spring(0.5, x.x))
