@@ -69,6 +69,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .core import slot as slot
     from .core import speed as speed
     from .core import state as state
+    from .plots import animate as animate
     from .plots import plot as plot
     from .report import write_report as write_report
 
@@ -137,6 +138,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "new": ("analyses.listing", "template"),
     "check": ("checks", "check_model"),
     "check_model": "checks",
+    "animate": "plots",
     "plot": "plots",
     "write_report": "report",
 }

@@ -12,6 +12,8 @@ from ..catalogue import load
 from ..core.compiled import direction
 from ..core.errors import UcritError
 from ..core.model import Model
+from .audit import Audit
+from .audit import audit as audited
 from .criteria import Criteria, Criterion, criteria
 from .critical import Critical, CriticalValues, critical
 from .modes import Mode, modes
@@ -48,6 +50,8 @@ class Analysis:
         Those of them that fail at the asked speed.
     remedies
         The smallest change of each parameter alone that makes it stable up to the asked speed.
+    audit
+        The verdict at the asked speed checked by the non-linear equations, where that was asked for.
     """
 
     vehicle: Model
@@ -60,6 +64,7 @@ class Analysis:
     why_no_criteria: str
     failing: tuple[Criterion, ...]
     remedies: tuple[Remedy, ...]
+    audit: Audit | None = None
 
     @property
     def sentence(self) -> str:
@@ -69,6 +74,7 @@ class Analysis:
     def to_dict(self) -> dict[str, Any]:
         """Return the facts as plain data, in the documented schema; infinite and undefined numbers are ``None``."""
         info, model = self.vehicle.info, type(self.vehicle)
+        checked = {} if self.audit is None else {"audit": self.audit.to_dict()}
         return {
             "schema": SCHEMA,
             "vehicle": {
@@ -90,6 +96,7 @@ class Analysis:
             "critical": [_critical(c) for c in self.critical or ()],
             "criteria": [_criterion(c, c in self.failing) for c in self.criteria or ()],
             "remedies": [_remedy(r) for r in self.remedies],
+            **checked,
         }
 
     def __str__(self) -> str:
@@ -105,6 +112,8 @@ def analyze(
     vehicle: Model | str | os.PathLike[str],
     upto: float | str | None = None,
     changes: Mapping[str, Any] | None = None,
+    *,
+    audit: bool = False,
 ) -> Analysis:
     """Judge a vehicle up to a speed: verdict, modes, critical speeds, criteria and remedies.
 
@@ -116,6 +125,8 @@ def analyze(
         Speed [m/s, or text with a unit] up to which it is judged; the vehicle's own by default.
     changes
         Parameter values that replace the vehicle's.
+    audit
+        Whether the verdict at the asked speed is checked by the non-linear equations too, see `audit`.
 
     Raises
     ------
@@ -148,6 +159,7 @@ def analyze(
         why_no_criteria=why,
         failing=found_criteria.failing(subject) if found_criteria else (),
         remedies=() if stable else remedies(subject),
+        audit=audited(subject) if audit else None,
     )
 
 

@@ -18,6 +18,7 @@ COMMANDS = {
     "list": "listing",
     "show": "show",
     "new": "new",
+    "simulate": "simulate",
     "sweep": "sweep",
     "routh": "routh",
     "tire": "tire",

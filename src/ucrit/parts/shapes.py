@@ -22,12 +22,10 @@ def pair_of_wheels(size, track, at, angle, ahead, steer=0.0):
 def car(a, b, front=0.0, rear=0.0, at=(0.0, 0.0), angle=0.0):
     """Car from above about its centre of mass; ``front`` and ``rear`` are steer angles."""
     size = a + b
-    body = box(1.5 * size, 0.68 * size, at, angle, ahead=(a - b) / 2)
+    body = box(1.5 * size, 0.64 * size, at, angle, ahead=(a - b) / 2)
     window = line((a - 0.3 * size, 0.26 * size), (a - 0.3 * size, -0.26 * size), at=at, angle=angle)
-    wheels = pair_of_wheels(size, 0.58 * size, at, angle, a, front) + pair_of_wheels(
-        size, 0.58 * size, at, angle, -b, rear
-    )
-    return (*wheels, body, window)
+    steered = pair_of_wheels(size, 0.58 * size, at, angle, a, front)
+    return (body, window, *steered, *pair_of_wheels(size, 0.58 * size, at, angle, -b, rear))
 
 
 def trailer(a, b, at=(0.0, 0.0), angle=0.0, steer=0.0):
@@ -35,7 +33,7 @@ def trailer(a, b, at=(0.0, 0.0), angle=0.0, steer=0.0):
     size = a + b
     bar = line((0, 0), (-0.35 * size, 0), at=at, angle=angle)
     body = box(1.1 * size, 0.55 * size, at, angle, ahead=-0.35 * size - 0.55 * size)
-    return (bar, *pair_of_wheels(0.8 * size, 0.5 * size, at, angle, -size, steer), body, joint(0.03 * size, at, angle))
+    return (bar, body, *pair_of_wheels(0.8 * size, 0.52 * size, at, angle, -size, steer), joint(0.03 * size, at, angle))
 
 
 def joint(radius, at, angle=0.0):

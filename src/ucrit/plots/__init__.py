@@ -6,10 +6,12 @@ writes it.
 
 from __future__ import annotations
 
+from .animation import animate, draw_frame
 from .damping import plot_damping
 from .dispatch import plot
 from .mode_shapes import plot_mode_shapes
 from .moment_line import plot_moment_line
+from .motion import plot_simulation
 from .overview import plot_overview
 from .participation import plot_participation
 from .remedies import plot_remedies
@@ -18,6 +20,8 @@ from .stability_map import plot_map
 from .tire import plot_tire
 
 __all__ = [
+    "animate",
+    "draw_frame",
     "plot",
     "plot_damping",
     "plot_locus",
@@ -27,5 +31,6 @@ __all__ = [
     "plot_overview",
     "plot_participation",
     "plot_remedies",
+    "plot_simulation",
     "plot_tire",
 ]

@@ -8,6 +8,7 @@ from typing import Any
 from ..core.errors import UcritError
 from .mode_shapes import plot_mode_shapes
 from .moment_line import plot_moment_line
+from .motion import plot_simulation
 from .overview import plot_overview
 from .remedies import plot_remedies
 from .stability_map import plot_map
@@ -38,6 +39,7 @@ DRAWN: dict[str, tuple[str, Callable[..., Any]]] = {
     "Modes": ("modes", _modes),
     "MomentLine": ("moment_line", plot_moment_line),
     "Remedy": ("remedies", plot_remedies),
+    "Simulation": ("simulate", plot_simulation),
     "StabilityMap": ("stability_map", plot_map),
     "TireCurves": ("tire_curves", plot_tire),
 }
