@@ -6,20 +6,21 @@ import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..catalogue import load
 from ..core.compiled import direction
 from ..core.errors import UcritError
 from ..core.model import Model
-from .audit import Audit
-from .audit import audit as audited
 from .criteria import Criteria, Criterion, criteria
 from .critical import Critical, CriticalValues, critical
 from .modes import Mode, modes
 from .remedies import Remedy, remedies
 from .verdict import Verdict, verdict
 from .wording import describe
+
+if TYPE_CHECKING:
+    from .audit import Audit
 
 SCHEMA = 1
 """Version of the dictionary that `Analysis.to_dict` returns; it grows when an entry changes its meaning."""
@@ -159,8 +160,14 @@ def analyze(
         why_no_criteria=why,
         failing=found_criteria.failing(subject) if found_criteria else (),
         remedies=() if stable else remedies(subject),
-        audit=audited(subject) if audit else None,
+        audit=_audit(subject) if audit else None,
     )
+
+
+def _audit(vehicle: Model) -> Audit:
+    from .audit import audit
+
+    return audit(vehicle)
 
 
 def _subject(vehicle: Model | str | os.PathLike[str], upto: Any, changes: Mapping[str, Any] | None) -> Model:

@@ -17,8 +17,11 @@ Array = npt.NDArray[Any]
 SAMPLES = 4
 """Places of a step at which signs are looked at, so that two crossings in one step are not missed."""
 
-MOST = 10_000
-"""Events of one run beyond which they are taken to pile up."""
+EARLY = 10.0 ** np.arange(-10, 0)
+"""Shares of a step at which signs are looked at too, right behind an event that changed the motion."""
+
+MOST, CLOSE = 10_000, 1e-9
+"""Events of one run, and the time [s] between two of one kind, beyond which they are taken to pile up."""
 
 
 @dataclass(frozen=True)
@@ -41,6 +44,8 @@ class Watch:
         self.names: tuple[str, ...] = made.event_names
         self.found: list[Crossing] = []
         self.signs = np.zeros((len(self.names), *lead))
+        self.last: dict[tuple[int, ...], float] = {}
+        self.fresh = False
 
     def begin(self, w: Array, u: Array) -> None:
         """Take the signs at the start; what is exactly zero there has not happened."""
@@ -59,6 +64,9 @@ class Watch:
         if not self.names:
             return None
         times = np.linspace(a, b, SAMPLES + 1)
+        if self.fresh:
+            times = np.concatenate([[a], np.unique([*(a + (times[1] - a) * EARLY), *times[1:]])])
+            self.fresh = False
         for early, late in pairwise(map(float, times)):
             new = np.sign(self._values(states(late), inputs(late)))
             ways = np.array(self.made.event_ways).reshape(-1, *(1,) * len(self.lead))
@@ -76,6 +84,7 @@ class Watch:
                     self._keep(e)
                     self.signs[(e.which, *e.member)] = 0 if e is stop else new[(e.which, *e.member)]
             if stop is not None:
+                self.fresh = True
                 return stop
             self.signs = np.where(new == 0, self.signs, new)
         return None
@@ -85,8 +94,10 @@ class Watch:
 
     def _keep(self, e: Crossing) -> None:
         self.found.append(e)
-        if len(self.found) > MOST * max(int(np.prod(self.lead)), 1):
-            raise UcritError(f"the event '{e.name}' happens over and over, more than {MOST} times by {e.time:.6g} s")
+        place, gap = (e.which, *e.member), CLOSE * max(e.time, 1.0)
+        if e.time - self.last.get(place, -np.inf) < gap or len(self.found) > MOST * max(int(np.prod(self.lead)), 1):
+            raise UcritError(f"the event '{e.name}' happens over and over at {e.time:.6g} s, without time going on")
+        self.last[place] = e.time
 
     def _locate(
         self, which: int, member: tuple[int, ...], a: float, b: float, states: Any, inputs: Any, new: Array

@@ -5,6 +5,7 @@ All members of a batch advance together, with the error of a step measured on ea
 
 from __future__ import annotations
 
+import math
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
@@ -147,7 +148,7 @@ class Follower:
     @property
     def alive(self) -> Array:
         """Whose motion has not ended."""
-        return np.isinf(self.alive_until)
+        return np.asarray(np.isinf(self.alive_until))
 
     def run(self) -> Course:
         """Follow the motion to its end."""
@@ -217,7 +218,7 @@ class Follower:
         explicit = self.method == EXPLICIT
         tolerance = self.tolerance or (1e-12 if explicit else IMPLICIT_TOLERANCE)
         # The solver judges the mean square over all members; that of the worst is at most their number times it.
-        tolerance = max(tolerance / np.sqrt(max(np.prod(self.lead), 1)), FINEST)
+        tolerance = max(tolerance / max(math.prod(self.lead), 1) ** 0.5, FINEST)
         options = {} if explicit else {"jac": lambda now, flat: self._jacobian(flat, inputs(now))}
         try:
             with np.errstate(all="ignore"):
@@ -242,7 +243,8 @@ class Follower:
 
     def _states(self, solver: Any) -> Callable[[float], Array]:
         """Return the states within the last step; of a batch they are worked out only where they are wanted."""
-        shape, made = self.w.shape, []
+        shape = self.w.shape
+        made: list[Any] = []
 
         def states(t: float) -> Array:
             with np.errstate(all="ignore"):
@@ -272,7 +274,8 @@ class Follower:
             self.alive_until[stop.member] = stop.time
             return
         after, held = self.made.after_event(stop.which, w, u, self.arguments)
-        self.w[:, *stop.member] = after[:, *stop.member]
+        mine: Any = (slice(None), *stop.member)
+        self.w[mine] = after[mine]
         for place, value in held.items():
             kept = np.array(np.broadcast_to(u[place], self.lead), dtype=float)
             kept[stop.member] = np.broadcast_to(value, self.lead)[stop.member]

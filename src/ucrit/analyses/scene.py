@@ -165,7 +165,7 @@ def _reach(vehicle: Model, shape: Array, length: float) -> float:
         unit = variables[label.rstrip("'")].state_unit(label.count("'"))
         weight = {"rad": 1.0, "m": 1 / length, "rad/s": 0.3, "m/s": 0.3 / length}.get(unit, 0.0)
         found.append(weight * abs(value))
-    return max(max(found), np.finfo(float).tiny)
+    return float(max(*found, np.finfo(float).tiny))
 
 
 def refuse_without_drawing(vehicle: Model) -> None:

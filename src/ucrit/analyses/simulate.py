@@ -131,9 +131,9 @@ def _result(
         arguments = [a[..., None] if np.ndim(a) else a for a in arguments]
     with np.errstate(invalid="ignore"):
         outputs = made.outputs(values, driven, arguments).reshape(len(declared.outputs), *values.shape[1:])
-    rows = (np.moveaxis(v, 0, -1) for v in (values, outputs, driven))
+    states, outputs, driven = (np.moveaxis(v, 0, -1) for v in (values, outputs, driven))
     names = made.labels, tuple(declared.outputs), tuple(declared.inputs)
-    return Simulation(vehicle, at, *names, *rows, events, ended, course.method, spans, course)
+    return Simulation(vehicle, at, *names, states, outputs, driven, events, ended, course.method, spans, course)
 
 
 def _times(given: Any, last: float) -> Array | None:

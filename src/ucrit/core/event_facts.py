@@ -25,9 +25,10 @@ def event_facts(model: type[Model]) -> dict[str, Any]:
     if not isinstance(returned, Mapping):
         raise ModelError(f"{where}: events must be a dictionary of names and values, got {returned!r}")
     found = {name: e if isinstance(e, Event) else Event(e) for name, e in returned.items()}
-    values = [sp.sympify(e.value) for e in found.values()]
-    for name, value in zip(found, values, strict=True):
-        check_sum(traced, value, f"{where}: event '{name}'")
+    values = []
+    for name, e in found.items():
+        check_sum(traced, sp.sympify(e.value), f"{where}: event '{name}'")
+        values.append(sp.Piecewise((e.value, e.during)))  # undefined, and without a sign, while it cannot happen
     places, settings = [], []
     states, inputs = [s.name for s in traced.states], list(model.declaration.inputs)
     for name, e in found.items():

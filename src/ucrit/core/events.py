@@ -25,10 +25,16 @@ class Event:
     ends: bool = False
     when: str = "either"
     after: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
+    during: Any = True
 
 
 def event(
-    value: Any, *, ends: bool = False, when: str = "either", after: Mapping[str, Mapping[str, Any]] | None = None
+    value: Any,
+    *,
+    ends: bool = False,
+    when: str = "either",
+    after: Mapping[str, Mapping[str, Any]] | None = None,
+    during: Any = True,
 ) -> Event:
     """Describe an event of a model.
 
@@ -44,6 +50,9 @@ def event(
         New values, as in a basic motion: ``{"dx": {"x": -self.e * dx.x}}`` bounces; ``{"u": {"locked": 1}}`` sets an
         input that stands for a mode.
 
+    during
+        Condition without which it does not happen: ``u.locked < 0.5``.
+
     Raises
     ------
     ModelError
@@ -58,4 +67,4 @@ def event(
         raise ModelError(f"an event is told when '{when}'{near_match(when, WAYS)}")
     if ends and after:
         raise ModelError("an event either ends the motion or sets values after it, not both")
-    return Event(value, ends, when, after or {})
+    return Event(value, ends, when, after or {}, during)

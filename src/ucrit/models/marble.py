@@ -4,7 +4,7 @@ The track lies in a vertical plane and the marble rolls along it without slip; z
 its centre.
 """
 
-from ..core import Drawing, Model, coordinate, event, param, sqrt
+from ..core import Drawing, Model, coordinate, param, sqrt
 from ..parts.shapes import ball_on_a_path
 
 
@@ -34,7 +34,3 @@ class Marble(Model):
 
     def drawing(self, x):
         return Drawing("side", ball_on_a_path(self.kappa, x.x))
-
-    def events(self, dx):
-        acceleration_of_the_path = self.kappa * dx.x**2
-        return {"leaves the ground": event(self.g + acceleration_of_the_path, ends=True)}
