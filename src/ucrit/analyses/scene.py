@@ -134,7 +134,7 @@ def mode_scene(vehicle: Model, mode: Mode, *, size: float = 0.15, periods: float
     basic, u = made.basic(vehicle.arguments())
     full = _full_shape(vehicle, mode)
     count = int(PER_PERIOD * periods) + 1
-    span = periods * (2 * np.pi / s.imag if s.imag else 1 / max(abs(s.real), 1e-9))
+    span = periods * (2 * np.pi / s.imag if s.imag else 1 / (abs(s) or 1.0))
     times = np.linspace(0, span, count)
     wave = np.exp(s * times - max(s.real, 0) * span)  # a growing motion reaches its size at the end
     still = place(vehicle, times[:1], dict(zip(made.labels, basic[:, None], strict=True)), _named(vehicle, u[:, None]))
