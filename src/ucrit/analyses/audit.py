@@ -118,7 +118,7 @@ class Audit:
                 {
                     "name": f.mode,
                     "linear": {"re": f.linear.real, "im": f.linear.imag},
-                    "nonlinear": {"re": f.fitted.real, "im": f.fitted.imag},
+                    "nonlinear": {"re": _plain(f.fitted.real), "im": _plain(f.fitted.imag)},
                     "agrees": f.agrees,
                 }
                 for f in self.findings
@@ -262,6 +262,10 @@ class _InOwnTime:
     def rhs(self, w: Array, u: Array, arguments: Any) -> Array:
         """Return rates per unit of time."""
         return self.made.rhs(w, u, arguments) * self.unit
+
+
+def _plain(value: float) -> float | None:
+    return value if math.isfinite(value) else None
 
 
 def _both(finding: Finding) -> str:

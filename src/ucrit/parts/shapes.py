@@ -55,12 +55,8 @@ def shopping_cart(b, at=(0.0, 0.0), angle=0.0):
     """Shopping cart from above about its centre of mass: fixed rear wheels, casters in front."""
     rear = pair_of_wheels(1.2 * b, 1.1 * b, at, angle, -b)
     front = tuple(disc(0.1 * b, moved(at, angle, b, side * b), angle, look="wheel") for side in (0.4, -0.4))
-    return (
-        *rear,
-        *front,
-        box(2.3 * b, 1.2 * b, at, angle),
-        line((-1.3 * b, 0.6 * b), (-1.3 * b, -0.6 * b), at=at, angle=angle),
-    )
+    handle = line((-1.3 * b, 0.6 * b), (-1.3 * b, -0.6 * b), at=at, angle=angle)
+    return (box(2.3 * b, 1.2 * b, at, angle), handle, *rear, *front)
 
 
 def rails(half_gauge, reach):

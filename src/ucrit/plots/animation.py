@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import tempfile
 from pathlib import Path
@@ -12,7 +13,7 @@ from . import style
 from .camera import LOOKS, Camera, camera, caption, frame_rate, frame_times
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
     from ..analyses.scene import Scene
     from ..analyses.simulation import Simulation
@@ -85,18 +86,49 @@ def film_format(path: str | os.PathLike[str]) -> str:
 
 
 def _film(scene: Scene, ending: str, progress: Callable[[float, float], None] | None) -> bytes:
-    from matplotlib.animation import FFMpegWriter, PillowWriter
-
-    made = (FFMpegWriter if ending == ".mp4" else PillowWriter)(fps=round(frame_rate(scene.times)))
-    with tempfile.TemporaryDirectory() as folder, style.settings():
-        film = Path(folder) / f"film{ending}"
+    with style.settings():
         figure, show = stage(scene)
-        with made.saving(figure, str(film), dpi=100):
+        show(0)
+        figure.canvas.draw()
+        figure.set_layout_engine("none")  # laid out once: each time would take longer than the drawing
+
+        def frames() -> Iterator[Any]:
             for k in range(len(scene.times)):
                 show(k)
-                made.grab_frame()
+                yield figure
                 if progress is not None:
                     progress(k + 1, len(scene.times))
+
+        rate = round(frame_rate(scene.times))
+        return _mp4(frames(), rate) if ending == ".mp4" else _gif(frames(), rate)
+
+
+def _gif(frames: Iterator[Any], rate: int) -> bytes:
+    from PIL import Image
+
+    pictures = []
+    for figure in frames:
+        figure.canvas.draw()
+        whole = Image.frombytes("RGBA", figure.canvas.get_width_height(), bytes(figure.canvas.buffer_rgba()))
+        pictures.append(whole.convert("RGB").quantize(32, dither=Image.Dither.NONE))
+    content = io.BytesIO()
+    first, *others = pictures
+    first.save(content, "GIF", save_all=True, append_images=others, duration=1000 // rate, loop=0)
+    return content.getvalue()
+
+
+def _mp4(frames: Iterator[Any], rate: int) -> bytes:
+    from matplotlib.animation import FFMpegWriter
+
+    writer, started = FFMpegWriter(fps=rate), False
+    with tempfile.TemporaryDirectory() as folder:
+        film = Path(folder) / "film.mp4"
+        for figure in frames:
+            if not started:
+                writer.setup(figure, str(film), dpi=100)
+                started = True
+            writer.grab_frame()
+        writer.finish()
         return film.read_bytes()
 
 
@@ -155,6 +187,3 @@ def _show(scene: Scene, seen: Camera, axes: Any, lines: list[Any], clock: Any, k
     axes.set_xlim(x - seen.width / 2, x + seen.width / 2)
     axes.set_ylim(y - seen.height / 2, y + seen.height / 2)
     clock.set_text(f"{scene.times[k]:.2f} s")
-    if axes.figure.get_layout_engine() is not None:  # lay out once: each time would take longer than the drawing
-        axes.figure.canvas.draw()
-        axes.figure.set_layout_engine("none")
