@@ -216,8 +216,9 @@ class Gust(Shape):
 class Measured(Shape):
     """Values at times in a CSV file, joined by straight lines.
 
-    The first line heads the columns, each with its unit: ``time [s], delta_f [deg]``. The column of the input's
-    name is taken, or the one named by ``column``. The table must cover the whole motion.
+    Lines that begin with ``#`` are remarks. The first other line heads the columns, each with its unit:
+    ``time [s],delta_f [deg]``. The column of the input's name is taken, or the one named by ``column``. The table must
+    cover the whole motion.
     """
 
     path: str | os.PathLike[str]

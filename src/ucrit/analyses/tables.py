@@ -21,7 +21,8 @@ def read_columns(path: str | os.PathLike[str], name: str, unit: str) -> tuple[li
     Parameters
     ----------
     path
-        A file whose first line heads columns by ``name [unit]``, the first of them ``time [s]``.
+        A file whose first line heads columns by ``name [unit]``, one of them ``time [s]``; empty lines and lines that
+        begin with ``#`` are skipped.
     name
         The column.
     unit
@@ -33,9 +34,11 @@ def read_columns(path: str | os.PathLike[str], name: str, unit: str) -> tuple[li
         One sentence about the first thing that is wrong.
     """
     where = f"'{path}'"
-    rows = [row for row in csv.reader(read_text(Path(path)).lstrip("\ufeff").splitlines()) if any(map(str.strip, row))]
-    if len(rows) < 3:
-        raise UcritError(f"{where} needs a line of names and at least two lines of numbers, got {len(rows)} lines")
+    numbered = list(enumerate(csv.reader(read_text(Path(path)).lstrip("\ufeff").splitlines()), 1))
+    kept = [(n, row) for n, row in numbered if any(map(str.strip, row)) and not row[0].lstrip().startswith("#")]
+    if len(kept) < 3:
+        raise UcritError(f"{where} needs a line of names and at least two lines of numbers, got {len(kept)} lines")
+    lines, rows = [n for n, _ in kept[1:]], [row for _, row in kept]
     heads = [_head(cell, where) for cell in rows[0]]
     names = [head for head, _ in heads]
     if len(set(names)) < len(names):
@@ -43,16 +46,16 @@ def read_columns(path: str | os.PathLike[str], name: str, unit: str) -> tuple[li
     for wanted in ("time", name):
         if wanted not in names:
             raise UcritError(f"{where} has no column '{wanted}'{near_match(wanted, names)}")
-    for number, row in enumerate(rows[1:], 2):
+    for number, row in zip(lines, rows[1:], strict=True):
         if len(row) != len(names):
             raise UcritError(f"{where}, line {number}: {len(names)} columns are headed, got {len(row)}")
     at, column = names.index("time"), names.index(name)
-    times = _values([row[at] for row in rows[1:]], heads[at][1], "s", f"{where}, time")
-    values = _values([row[column] for row in rows[1:]], heads[column][1], unit, f"{where}, {name}")
+    times = _values({n: row[at] for n, row in kept[1:]}, heads[at][1], "s", f"{where}, time")
+    values = _values({n: row[column] for n, row in kept[1:]}, heads[column][1], unit, f"{where}, {name}")
     late = next((i for i in range(1, len(times)) if times[i] <= times[i - 1]), None)
     if late is not None:
         raise UcritError(
-            f"{where}, line {late + 2}: times must ascend, got {times[late]:g} s after {times[late - 1]:g} s"
+            f"{where}, line {lines[late]}: times must ascend, got {times[late]:g} s after {times[late - 1]:g} s"
         )
     return times, values
 
@@ -64,12 +67,12 @@ def _head(cell: str, where: str) -> tuple[str, str]:
     return match[1], match[2]
 
 
-def _values(cells: list[str], given: str, unit: str, thing: str) -> list[float]:
+def _values(cells: dict[int, str], given: str, unit: str, thing: str) -> list[float]:
     """Return a column in SI units; units are converted by two points, so that degrees Celsius would do too."""
     text = "" if given == "1" else f" {given}"
     zero, one = (to_si(f"{n}{text}", unit, thing) for n in (0, 1))
     numbers = []
-    for line, cell in enumerate(cells, 2):
+    for line, cell in cells.items():
         try:
             number = float(cell)
         except ValueError:
