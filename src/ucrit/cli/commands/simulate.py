@@ -74,17 +74,17 @@ def command(
       step 2 deg at 1 s
       ramp 2 deg at 1 s over 3 s
       sine 2 deg with 0.5 Hz at 1 s over 4 s
-      dwell 5 deg at 1 s with 0.7 Hz hold 0.5 s     a sine held at its second peak
+      dwell 5 deg at 1 s with 0.7 Hz hold 0.5 s  (sine, held at its 2nd peak)
       pulse 2 deg at 1 s over 0.2 s
       gust 15 m/s at 1 s over 0.5 s            (1 - cos)/2
       step 2 deg at 1 s + step -2 deg at 3 s   sums
-      table steer.csv                          a CSV file headed "time [s],delta_f [deg]"
+      table steer.csv                          (headed "time [s],delta_f [deg]")
 
     \b
     Examples:
-      ucrit simulate understeering-car --until 10 --input delta_f="step 2 deg at 1 s"
+      ucrit simulate understeering-car --until 9 --input "delta_f=step 1 deg"
       ucrit simulate caravan --until "20 s" --initial theta="1 deg" -o sway.html
-      ucrit simulate oversteering-car --until 6 --input delta_f="dwell 3 deg at 1 s" -o run.csv -o run.gif
+      ucrit simulate bmw-320i --until 6 --input "delta_f=dwell 3 deg" -o run.gif
 
     Exit status: 0 done; 2 wrong input, nothing is written then.
     """
