@@ -86,6 +86,7 @@ TOO_LONG = (
     "airplane",
     "airplane-longitudinal-coefficients",
     "airplane-lateral-coefficients",
+    "bicycle",
     "car-trailer",
     "rail-truck",
 )
