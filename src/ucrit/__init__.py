@@ -10,6 +10,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.analyze import analyze as analyze
     from .analyses.approximation import approximation as approximation
     from .analyses.audit import audit as audit
+    from .analyses.boundary import boundary as boundary
     from .analyses.compare import compare as compare
     from .analyses.convert import to_control as to_control
     from .analyses.convert import to_scipy as to_scipy
@@ -107,6 +108,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "audit": "analyses.audit",
     "axle_loads": "analyses.steady",
     "cornering_coefficient": "analyses.tire_curves",
+    "boundary": "analyses.boundary",
     "compare": "analyses.compare",
     "frequency_response": "analyses.response",
     "impulse_response": "analyses.response",

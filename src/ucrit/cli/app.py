@@ -20,6 +20,7 @@ COMMANDS = {
     "new": "new",
     "simulate": "simulate",
     "sweep": "sweep",
+    "boundary": "boundary",
     "routh": "routh",
     "tire": "tire",
     "check": "check",

@@ -121,7 +121,9 @@ def graphics_source(functions: Compiled, outer: Sequence[int], inner: int) -> st
     lines += [f"        e{k} = limits[{k}]" for k in range(number_of_limits(degree))]
     lines += [f"        v{k} = outer[i, {column}]" for column, k in enumerate(outer)]
     lines += [f"        v{inner} = inner[j]", body(functions, " " * 8), "        out[i, j] = code"]
-    return "import math\n\nfrom numba.cuda import grid\n\n" + _HEAD.split("import numpy\n\n")[1] + "\n".join([*lines, ""])
+    return (
+        "import math\n\nfrom numba.cuda import grid\n\n" + _HEAD.split("import numpy\n\n")[1] + "\n".join([*lines, ""])
+    )
 
 
 def needed(engine: str) -> Any:

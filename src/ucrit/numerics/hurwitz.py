@@ -96,19 +96,36 @@ def judged(
         if len(a) > 5:
             sure, possible = _judged_by_routh(a, error)
         else:
-            tests = sorted(zip(_conditions(a), slacks(size, error), strict=True), key=lambda pair: np.size(pair[0]))
+            tests = sorted(zip(conditions(a), slacks(size, error), strict=True), key=lambda pair: np.size(pair[0]))
             sure = reduce(np.logical_and, [x > slack for x, slack in tests])
             possible = reduce(np.logical_and, [~(x < -slack) for x, slack in tests])
     return np.broadcast_to(sure, shape), np.broadcast_to(possible & ~sure, shape)
 
 
-def _conditions(a: Sequence[Any]) -> list[Any]:
-    """What must be positive, for degree 1 to 4 and a positive leading coefficient."""
+def conditions(a: Sequence[Any]) -> list[Any]:
+    """What must be positive for stability if the leading coefficient is: any numbers with ``+ - * /``.
+
+    Up to degree 4 the conditions of Lienard and Chipart, above the first column of Routh's array.
+    """
+    if len(a) > 5:
+        return _first_column(a)
     if len(a) == 4:
         return [a[3], a[0], a[2], a[1] * a[2] - a[0] * a[3]]
     if len(a) == 5:
         return [a[4], a[0], a[1], a[3], a[1] * (a[2] * a[3] - a[4] * a[1]) - a[0] * (a[3] * a[3])]
     return list(reversed(a))
+
+
+def _first_column(a: Sequence[Any]) -> list[Any]:
+    upper, lower = list(a[::-2]), list(a[-2::-2])
+    column = [upper[0]]
+    while lower:
+        column.append(lower[0])
+        ratio, row = upper[0] / lower[0], upper[1:]
+        for j, x in enumerate(lower[1:]):
+            row[j] = row[j] - ratio * x
+        upper, lower = lower, row
+    return column
 
 
 def slacks(size: Sequence[Any], error: Sequence[Any]) -> list[Any]:

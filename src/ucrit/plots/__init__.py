@@ -7,6 +7,7 @@ writes it.
 from __future__ import annotations
 
 from .animation import animate, draw_frame
+from .boundary import plot_boundary
 from .damping import plot_damping
 from .dispatch import plot
 from .mode_shapes import plot_mode_shapes
@@ -23,6 +24,7 @@ __all__ = [
     "animate",
     "draw_frame",
     "plot",
+    "plot_boundary",
     "plot_damping",
     "plot_locus",
     "plot_map",

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from typing import Any
 
 from ..core.errors import UcritError
+from .boundary import plot_boundary
 from .mode_shapes import plot_mode_shapes
 from .moment_line import plot_moment_line
 from .motion import plot_simulation
@@ -40,6 +41,7 @@ DRAWN: dict[str, tuple[str, Callable[..., Any]]] = {
     "MomentLine": ("moment_line", plot_moment_line),
     "Remedy": ("remedies", plot_remedies),
     "Simulation": ("simulate", plot_simulation),
+    "StabilityBoundary": ("boundary", plot_boundary),
     "StabilityMap": ("stability_map", plot_map),
     "TireCurves": ("tire_curves", plot_tire),
 }
