@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import product
+from itertools import pairwise, product
 from typing import Any
 
 import numpy as np
@@ -144,7 +144,7 @@ def _segments(x: Array) -> list[slice]:
     size = np.where(x == 0, 1.0, np.abs(x))
     label = np.sign(x) * (5000 + np.floor(np.log(size) / np.log(SPAN)))
     edges = [0, *(np.flatnonzero(np.diff(label)) + 1), x.size]
-    return [slice(int(a), int(b)) for a, b in zip(edges, edges[1:], strict=False)]
+    return [slice(int(a), int(b)) for a, b in pairwise(edges)]
 
 
 def _flat(grid: Grid, tile: Tile, inside: Array) -> Array:

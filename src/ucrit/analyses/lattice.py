@@ -124,7 +124,7 @@ def _with_neighbours(
 
 
 def simplices(dimensions: int) -> Places:
-    """Return the triangles or tetrahedra of a unit cell, by their corners: shape (d!, d + 1, d) (H. Freudenthal 1942)."""
+    """Return the triangles or tetrahedra of a unit cell, shape (d!, d + 1, d): paths along its axes."""
     found = []
     for order in permutations(range(dimensions)):
         path = [np.zeros(dimensions, dtype=np.int64)]
