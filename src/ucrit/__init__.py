@@ -71,6 +71,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .core import speed as speed
     from .core import state as state
     from .plots import animate as animate
+    from .numerics.matrices import stable_matrices as stable_matrices
     from .plots import plot as plot
     from .report import write_report as write_report
 
@@ -142,6 +143,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "check_model": "checks",
     "animate": "plots",
     "plot": "plots",
+    "stable_matrices": "numerics.matrices",
     "write_report": "report",
 }
 """Public names, and the module that has each, with its name there where it is another."""

@@ -115,15 +115,13 @@ def graphics_source(functions: Compiled, outer: Sequence[int], inner: int) -> st
     """Return a kernel for the same grid in which each thread judges one point."""
     degree = functions.order - functions.structural_zeros
     fixed = [k for k in range(len(functions.model.declaration.parameters)) if k not in (*outer, inner)]
-    lines = ["def kernel(fixed, limits, outer, inner, out):", "    j, i = grid(2)"]
+    lines = ["def kernel(fixed, limits, outer, inner, out):", "    j, i = cuda.grid(2)"]
     lines += ["    if i < outer.shape[0] and j < inner.size:"]
     lines += [f"        v{k} = fixed[{k}]" for k in fixed]
     lines += [f"        e{k} = limits[{k}]" for k in range(number_of_limits(degree))]
     lines += [f"        v{k} = outer[i, {column}]" for column, k in enumerate(outer)]
     lines += [f"        v{inner} = inner[j]", body(functions, " " * 8), "        out[i, j] = code"]
-    return (
-        "import math\n\nfrom numba.cuda import grid\n\n" + _HEAD.split("import numpy\n\n")[1] + "\n".join([*lines, ""])
-    )
+    return "import math\n\nfrom numba import cuda\n\n" + _HEAD.split("import numpy\n\n")[1] + "\n".join([*lines, ""])
 
 
 def needed(engine: str) -> Any:
