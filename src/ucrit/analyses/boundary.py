@@ -18,7 +18,7 @@ from ..core.compiled import Compiled, compiled, deciding, direction
 from ..core.errors import UcritError
 from ..core.model import Model
 from ..numerics.enclosures import Enclosure, EnclosureFunctions
-from ..numerics.hurwitz import conditions
+from ..numerics.rounded import conditions
 from .boundary_result import StabilityBoundary, in_lines
 from .judge import BLOCK, certain, settle
 from .lattice import Lattice, corners, crossed, simplices, subdivided

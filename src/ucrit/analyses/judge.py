@@ -18,7 +18,7 @@ from ..core.bounds import coefficient_bounds
 from ..core.compiled import Compiled, compiled, deciding, direction, state_space
 from ..core.errors import UcritError
 from ..core.model import Model
-from ..numerics.hurwitz import judged, slacks
+from ..numerics.rounded import judged, slacks
 from ..numerics.routh import routh
 from .modes import growth
 
@@ -64,7 +64,7 @@ class Grid:
         """Compiled functions for a tile, in which the speed has one sign."""
         model = type(self.vehicle)
         name = model.declaration.speed
-        if name not in self.axes:
+        if name is None or name not in self.axes:
             return compiled(model, direction(self.vehicle))
         first = self.axes[name][tile[list(self.axes).index(name)]][0]
         return compiled(model, 1 if first > 0 else -1)
@@ -222,7 +222,7 @@ def settle(vehicle: Model, columns: Mapping[str, Array]) -> Array:
     """
     stable = np.zeros(len(next(iter(columns.values()))), dtype=bool)
     speed = type(vehicle).declaration.speed
-    signs = np.sign(columns[speed]) if speed in columns else np.ones(stable.size)
+    signs = np.sign(columns[speed]) if speed is not None and speed in columns else np.ones(stable.size)
     left = EXACT_POINTS
     for sign in np.unique(signs):
         part = np.flatnonzero(signs == sign)

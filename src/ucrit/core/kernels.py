@@ -59,7 +59,7 @@ def _scalar(line: str) -> str:
 
 
 def _up_to_4(degree: int) -> list[str]:
-    """Conditions of Lienard and Chipart, in the order of `ucrit.numerics.hurwitz.slacks`."""
+    """Conditions of Lienard and Chipart, in the order of `ucrit.numerics.rounded.slacks`."""
     tests = [f"a{k}" for k in reversed(range(degree + 1))]
     if degree == 3:
         tests = ["a3", "a0", "a2", "a1*a2 - a0*a3"]

@@ -43,7 +43,12 @@ class Enclosure:
     ([0.25], [2.25])
     """
 
-    __array_ufunc__ = None
+    __array_ufunc__: Any = None
+    centre: Array
+    lower: Array
+    upper: Array
+    slopes: Array
+    half: Array
 
     def __init__(self, centre: Array, lower: Array, upper: Array, slopes: Array, half: Array) -> None:
         reach = (np.abs(slopes).max(axis=0) * half).sum(axis=0)
@@ -69,25 +74,28 @@ class Enclosure:
         return Enclosure(-self.centre, -self.upper, -self.lower, -self.slopes[::-1], self.half)
 
     def __sub__(self, other: Any) -> Enclosure:
-        return self + (-other)
+        difference: Enclosure = self + (-other)
+        return difference
 
     def __rsub__(self, other: Any) -> Enclosure:
-        return -self + other
+        difference: Enclosure = -self + other
+        return difference
 
     def __mul__(self, other: Any) -> Enclosure:
         if not isinstance(other, Enclosure):
-            ends = np.sort([self.lower * other, self.upper * other], axis=0)
-            return Enclosure(self.centre * other, *ends, np.sort(self.slopes * other, axis=0), self.half)
+            low, high = np.sort([self.lower * other, self.upper * other], axis=0)
+            return Enclosure(self.centre * other, low, high, np.sort(self.slopes * other, axis=0), self.half)
         ends = _product(self.lower, self.upper, other.lower, other.upper)
-        one = _product(*self.slopes, other.lower, other.upper)
-        two = _product(*other.slopes, self.lower, self.upper)
+        one = _product(self.slopes[0], self.slopes[1], other.lower, other.upper)
+        two = _product(other.slopes[0], other.slopes[1], self.lower, self.upper)
         slopes = np.stack([one[0] + two[0], one[1] + two[1]])
         return Enclosure(self.centre * other.centre, *ends, slopes, self.half)
 
     __rmul__ = __mul__
 
     def __truediv__(self, other: Any) -> Enclosure:
-        return self * (1 / other)
+        quotient: Enclosure = self * (1 / other)
+        return quotient
 
     def __rtruediv__(self, other: Any) -> Enclosure:
         crosses = (self.lower <= 0) & (self.upper >= 0)
@@ -96,7 +104,8 @@ class Enclosure:
             1 / self.centre, lower, upper, *(-x for x in _product(lower, upper, lower, upper)[::-1])
         )
         inverse.lower[crosses], inverse.upper[crosses] = -np.inf, np.inf
-        return inverse * other
+        quotient: Enclosure = inverse * other
+        return quotient
 
     def __pow__(self, exponent: int) -> Enclosure:
         if exponent < 0:
@@ -108,7 +117,9 @@ class Enclosure:
 
     def _through(self, centre: Array, lower: Array, upper: Array, least: Array, most: Array) -> Enclosure:
         """Return a function of this quantity from its range and that of its derivative."""
-        return Enclosure(centre, lower, upper, np.stack(_product(*self.slopes, least, most)), self.half)
+        return Enclosure(
+            centre, lower, upper, np.stack(_product(self.slopes[0], self.slopes[1], least, most)), self.half
+        )
 
     def _wave(self, value: Callable[[Any], Array], slope: Callable[[Any], Array]) -> Enclosure:
         """Return a function whose value and slope lie in [-1, 1] and change no faster than the argument."""

@@ -63,97 +63,6 @@ def stable(a: Sequence[ArrayLike]) -> NDArray[np.bool_]:
     return result
 
 
-def judged(
-    a: Sequence[Array], size: Sequence[Any], error: Sequence[Any]
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Whether polynomials are stable for sure, and where that is not sure, from coefficients that were rounded.
-
-    Parameters
-    ----------
-    a
-        n + 1 coefficients, n > 0, that broadcast together.
-    size, error
-        Bounds of their absolute values and of their errors.
-
-    Returns
-    -------
-    bool array, bool array
-        Stable for sure; neither that nor unstable for sure (also where numbers overflow or are not finite). Both of
-        the broadcast shape of ``a``.
-
-    Examples
-    --------
-    >>> stable, open_ = judged([np.array([1.0, 1e-20, -1.0]), np.array(1.0)], [1, 1], [1e-15, 1e-15])
-    >>> stable, open_
-    (array([ True, False, False]), array([False,  True, False]))
-    """
-    shape = np.broadcast_shapes(*(np.shape(x) for x in a))
-    with np.errstate(all="ignore"):
-        if not (a[-1] > 0).all():
-            sign = np.where(a[-1] < 0, -1.0, 1.0)
-            a = [x * sign for x in a]
-        error = [x + _UNDERFLOW for x in error]
-        if len(a) > 5:
-            sure, possible = _judged_by_routh(a, error)
-        else:
-            tests = sorted(zip(conditions(a), slacks(size, error), strict=True), key=lambda pair: np.size(pair[0]))
-            sure = reduce(np.logical_and, [x > slack for x, slack in tests])
-            possible = reduce(np.logical_and, [~(x < -slack) for x, slack in tests])
-    return np.broadcast_to(sure, shape), np.broadcast_to(possible & ~sure, shape)
-
-
-def conditions(a: Sequence[Any]) -> list[Any]:
-    """What must be positive for stability if the leading coefficient is: any numbers with ``+ - * /``.
-
-    Up to degree 4 the conditions of Lienard and Chipart, above the first column of Routh's array.
-    """
-    if len(a) > 5:
-        return _first_column(a)
-    if len(a) == 4:
-        return [a[3], a[0], a[2], a[1] * a[2] - a[0] * a[3]]
-    if len(a) == 5:
-        return [a[4], a[0], a[1], a[3], a[1] * (a[2] * a[3] - a[4] * a[1]) - a[0] * (a[3] * a[3])]
-    return list(reversed(a))
-
-
-def _first_column(a: Sequence[Any]) -> list[Any]:
-    upper, lower = list(a[::-2]), list(a[-2::-2])
-    column = [upper[0]]
-    while lower:
-        column.append(lower[0])
-        ratio, row = upper[0] / lower[0], upper[1:]
-        for j, x in enumerate(lower[1:]):
-            row[j] = row[j] - ratio * x
-        upper, lower = lower, row
-    return column
-
-
-def slacks(size: Sequence[Any], error: Sequence[Any]) -> list[Any]:
-    """Errors of what must be positive for degree 1 to 4, from bounds of the coefficients' sizes and errors."""
-    M, E = size, error
-    if len(M) == 4:
-        product = M[1] * E[2] + M[2] * E[1] + M[0] * E[3] + M[3] * E[0] + 4 * _EPS * (M[1] * M[2] + M[0] * M[3])
-        return [E[3], E[0], E[2], 1.1 * product + _UNDERFLOW]
-    if len(M) == 5:
-        product = (
-            E[1] * (M[2] * M[3] + 2 * M[4] * M[1])
-            + E[2] * M[1] * M[3]
-            + E[3] * (M[1] * M[2] + 2 * M[0] * M[3])
-            + E[4] * M[1] * M[1]
-            + E[0] * M[3] * M[3]
-            + 6 * _EPS * (M[1] * M[2] * M[3] + M[4] * M[1] * M[1] + M[0] * M[3] * M[3])
-        )
-        return [E[4], E[0], E[1], E[3], 1.1 * product + _UNDERFLOW]
-    return list(reversed(E))
-
-
-def _judged_by_routh(a: Sequence[Array], error: Sequence[Any]) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    changes, certain = _sign_changes(a, error)
-    positive = [~(x < -e) for x, e in sorted(zip(a, error, strict=True), key=lambda pair: np.size(pair[0]))]
-    sure = certain & (changes == 0) & (a[-1] > error[-1])
-    return np.asarray(sure), np.asarray(reduce(np.logical_and, positive) & ~(certain & (changes != 0)))
-
-
 def right_half_plane(a: ArrayLike) -> NDArray[np.int64]:
     """The number of roots in the open right half plane, with multiplicity, for many polynomials at once.
 
@@ -195,7 +104,7 @@ def right_half_plane(a: ArrayLike) -> NDArray[np.int64]:
     with np.errstate(all="ignore"):
         for start in range(0, len(points), _BLOCK):
             block = _scaled(points[start : start + _BLOCK])
-            count[start : start + _BLOCK], certain = _sign_changes(list(np.ascontiguousarray(block.T)))
+            count[start : start + _BLOCK], certain = sign_changes(list(np.ascontiguousarray(block.T)))
             unsure = np.flatnonzero(~certain)
             if len(unsure):
                 count[start + unsure], certain = _count_by_eigenvalues(block[unsure])
@@ -232,7 +141,7 @@ def _stable_up_to_4(a: Sequence[Array]) -> Any:
 
 def _stable_by_routh(a: Sequence[Array]) -> Any:
     """Routh's recursion, and the exact array at the points where a pivot is lost in rounding."""
-    changes, certain = _sign_changes(a)
+    changes, certain = sign_changes(a)
     result = np.asarray(certain & (changes == 0) & (a[-1] > 0))
     possible = reduce(np.logical_and, ((x > 0) & np.isfinite(x) for x in sorted(a, key=np.size)))
     for k in np.argwhere(possible & ~certain):
@@ -255,20 +164,21 @@ def _scaled(a: Array) -> Array:
     return scaled
 
 
-def _sign_changes(a: Sequence[Array], error: Sequence[Any] | None = None) -> tuple[NDArray[Any], NDArray[np.bool_]]:
+def sign_changes(a: Sequence[Array], error: Sequence[Any] | None = None) -> tuple[NDArray[Any], NDArray[np.bool_]]:
     """Sign changes of Routh's first column, and where its signs hold whatever was rounded."""
     upper, lower = list(a[::-2]), list(a[-2::-2])
-    errors = [np.zeros(())] * len(a) if error is None else list(error)
-    upper_error, lower_error = errors[::-2], errors[-2::-2]
+    errors: list[Any] = [np.zeros(())] * len(a) if error is None else list(error)
+    upper_error: list[Any] = errors[::-2]
+    lower_error: list[Any] = errors[-2::-2]
     changes: NDArray[Any] = np.zeros((), dtype=np.int64)
     certain: NDArray[np.bool_] = np.ones((), dtype=bool)
     while lower:
-        pivot, error = np.abs(lower[0]), lower_error[0]
-        certain = certain & (pivot > 2 * error)
+        pivot, doubt = np.abs(lower[0]), lower_error[0]
+        certain = certain & (pivot > 2 * doubt)
         changes = changes + ((upper[0] < 0) != (lower[0] < 0))
         ratio = upper[0] / lower[0]
         size = np.abs(ratio)
-        slack = (upper_error[0] + size * error) / (pivot - error) + _EPS * size
+        slack = (upper_error[0] + size * doubt) / (pivot - doubt) + _EPS * size
         row, row_error = upper[1:], upper_error[1:]
         for j in range(len(lower) - 1):
             product = ratio * lower[j + 1]

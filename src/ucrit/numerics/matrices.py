@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .hurwitz import judged
+from .rounded import judged
 
 Array = NDArray[np.float64]
 
@@ -56,16 +56,16 @@ def stable_matrices(A: ArrayLike, engine: str = "auto") -> NDArray[np.bool_]:
     if matrices.ndim < 2 or matrices.shape[-1] != matrices.shape[-2] or not matrices.shape[-1]:
         raise ValueError(f"matrices of shape {matrices.shape}: the last two dimensions must be equal and not 0")
     n = matrices.shape[-1]
-    many = matrices.reshape(-1, n, n)
+    many: Array = matrices.reshape(-1, n, n)
     stable = np.zeros(prod(matrices.shape[:-2]), dtype=bool)
     by_numba = _by_numba(engine, len(many))
     block = _BLOCK * 64 if by_numba else _BLOCK
     for start in range(0, len(many), block):
         part = many[start : start + block]
         with np.errstate(all="ignore"):
-            sure, open_ = _compiled(part) if by_numba else _judged(part)
+            found, open_ = _compiled(part) if by_numba else _judged(part)
+            sure: NDArray[np.bool_] = np.array(found)
         if open_.any():
-            sure = np.array(sure)
             sure[open_] = _by_eigenvalues(part[open_])
         stable[start : start + block] = sure
     return stable.reshape(matrices.shape[:-2])

@@ -52,9 +52,10 @@ def plot_boundary(result: StabilityBoundary, *, figure: Any = None) -> Any:
             if log:
                 getattr(axes, f"set_{axis}scale")("log")
             parameter = declared[name]
-            text = labels.axis_label(parameter.meaning.partition(",")[0], name, parameter.unit)
+            meaning = parameter.meaning.partition(",")[0] if len(result.parameters) == 2 else ""
+            text = labels.axis_label(meaning, name, parameter.unit).strip()
             getattr(axes, f"set_{axis}label")(text)
-        axes.legend()
+        axes.legend(loc="upper left")
         if len(result.parameters) == 2:
             style.tidy(axes, grid=False)
     return fig
@@ -81,4 +82,12 @@ def _surface(axes: Any, result: StabilityBoundary) -> None:
     for kind in np.unique(result.kinds):
         part = result.pieces[(result.kinds[result.pieces] == kind).any(axis=1)]
         colour = style.STABLE if kind == "flutter" else style.UNSTABLE
-        axes.plot_trisurf(*result.points.T, triangles=part, color=colour, linewidth=0, alpha=0.8, label=str(kind))
+        axes.plot_trisurf(
+            *result.points.T,
+            triangles=part,
+            color=colour,
+            shade=False,
+            edgecolor=style.INK,
+            linewidth=0.1,
+            label=str(kind),
+        )
