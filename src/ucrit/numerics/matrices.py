@@ -155,7 +155,7 @@ def _polynomial(H: Array) -> list[Any]:
 
 def _by_eigenvalues(matrices: Array) -> NDArray[np.bool_]:
     """Judge matrices by balanced eigenvalues; one within rounding of the axis does not count as stable."""
-    finite = np.isfinite(matrices).all(axis=(1, 2))
+    finite: NDArray[np.bool_] = np.asarray(np.isfinite(matrices).all(axis=(1, 2)))
     values = np.linalg.eigvals(np.where(finite[:, None, None], matrices, np.eye(matrices.shape[-1])))
     rounding = 8 * matrices.shape[-1] * _EPS * np.abs(values).max(axis=-1)
     return np.asarray(finite & (values.real.max(axis=-1) < -rounding))
