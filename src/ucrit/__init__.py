@@ -70,8 +70,8 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .core import slot as slot
     from .core import speed as speed
     from .core import state as state
-    from .plots import animate as animate
     from .numerics.matrices import stable_matrices as stable_matrices
+    from .plots import animate as animate
     from .plots import plot as plot
     from .report import write_report as write_report
 
