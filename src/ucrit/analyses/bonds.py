@@ -16,7 +16,7 @@ from ..bondgraph.model import BondGraphModel, graph_of, input_symbols, states_bo
 from ..catalogue import BONDS, find_model, model_from_file, model_names
 from ..core.errors import UcritError, near_match
 from ..core.model import Model
-from .simulate import Simulation
+from .simulation import Simulation
 
 Array = npt.NDArray[np.float64]
 WHY = {

@@ -19,7 +19,7 @@ from ..core.motion import Motion, motion
 from ..core.trace import Traced, trace
 from .published import Entry, read_published
 from .report import NotApplicableError
-from .sample import Array, parameter_sets, vehicles_of
+from .sample import SPREAD, Array, parameter_sets, vehicles_of
 
 
 @dataclass(frozen=True)
@@ -87,9 +87,9 @@ class Subject:
         """Return a generator of its own for every purpose, the same in every run."""
         return np.random.default_rng([self.seed, zlib.crc32(purpose.encode())])
 
-    def parameter_sets(self, purpose: str, count: int, direction: int = 1) -> list[Array]:
+    def parameter_sets(self, purpose: str, count: int, direction: int = 1, spread: float = SPREAD) -> list[Array]:
         """Return random values of every parameter."""
-        return parameter_sets(self.model, self.rng(purpose), count, direction, self.vehicles)
+        return parameter_sets(self.model, self.rng(purpose), count, direction, self.vehicles, spread)
 
     def points(self, purpose: str, direction: int = 1, count: int = 3) -> list[Sequence[float]]:
         """Return a few random parameter sets, one a row."""

@@ -18,9 +18,12 @@ COMMANDS = {
     "list": "listing",
     "show": "show",
     "new": "new",
+    "simulate": "simulate",
     "sweep": "sweep",
+    "boundary": "boundary",
     "routh": "routh",
     "bonds": "bonds",
+    "tire": "tire",
     "check": "check",
     "completion": "completion",
 }

@@ -11,7 +11,7 @@ import json
 import os
 import sys
 import tempfile
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
@@ -19,6 +19,7 @@ from typing import Any
 
 from .declare import Quantity
 from .model import Model
+from .part import Slot
 
 PACKAGE = Path(__file__).resolve().parent.parent
 DERIVING = ("core", "numerics", "bondgraph", "analyses")
@@ -115,6 +116,11 @@ def _pieces(value: Any, seen: set[int]) -> Iterator[str]:
     value = getattr(value, "__func__", getattr(value, "fget", value))
     if isinstance(value, Quantity | int | float | str | bool | tuple | None):
         yield repr(value)
+    elif isinstance(value, Slot):
+        yield repr((value.name, value.meaning))
+        yield from _pieces(value.law, seen)
+    elif isinstance(value, Mapping):
+        yield repr(sorted(value.items(), key=repr))
     elif id(value) in seen or _is_stamped(value):
         return
     elif isinstance(value, FunctionType):

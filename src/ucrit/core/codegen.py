@@ -53,17 +53,28 @@ def _printer() -> Any:
                 return f"({product})" if exponent > 0 else f"(1/({product}))"
             return str(super()._print_Pow(expr, rational=rational))
 
+        def _print_Piecewise(self, expr: Any) -> str:
+            *pieces, (last, always) = expr.args
+            text = self._print(last) if always == True else "numpy.nan"  # noqa: E712
+            for value, condition in reversed(pieces if always == True else expr.args):  # noqa: E712
+                text = f"numpy.where({self._print(condition)}, {self._print(value)}, {text})"
+            return text
+
+        def _print_Relational(self, expr: Any) -> str:
+            return f"({self._print(expr.lhs)} {expr.rel_op} {self._print(expr.rhs)})"
+
     return Printer({"fully_qualified_modules": True})
 
 
-def build(source: str, name: str, *, exact: bool = False) -> Callable[..., tuple[Any, ...]]:
+def build(source: str, name: str, *, exact: bool = False, functions: Any = None) -> Callable[..., tuple[Any, ...]]:
     """Compile generated source and return its function.
 
-    With ``exact=True`` it runs on fractions; functions other than arithmetic are then rounded to doubles.
+    With ``exact=True`` it runs on fractions; functions other than arithmetic are then rounded to doubles. Another
+    kind of number brings its own ``functions``, with NumPy's names.
     """
     import numpy
 
-    namespace: dict[str, Any] = {"numpy": _ExactFunctions() if exact else numpy, "math": math}
+    namespace: dict[str, Any] = {"numpy": functions or (_ExactFunctions() if exact else numpy), "math": math}
     exec(compile(source, f"<generated {name}>", "exec"), namespace)
     function: Callable[..., tuple[Any, ...]] = namespace[name]
     return function
@@ -71,6 +82,10 @@ def build(source: str, name: str, *, exact: bool = False) -> Callable[..., tuple
 
 class _ExactFunctions:
     """NumPy's functions for fractions: rounded to a double, then taken as that exact number."""
+
+    @staticmethod
+    def where(condition: bool, yes: Any, no: Any) -> Any:
+        return yes if condition else no
 
     def __getattr__(self, name: str) -> Any:
         from fractions import Fraction

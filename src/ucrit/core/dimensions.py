@@ -20,12 +20,7 @@ def check_dimensions(traced: Traced) -> None:
 
     Multipliers of constraints take whatever unit makes their terms fit; a clash elsewhere is still found.
     """
-    declared = traced.model.declaration
-    known = {symbol: declared.parameters[name].dimension for name, symbol in traced.parameters.items()}
-    per_second = Dimension(0, 0, -1)
-    for variable, chain in zip(declared.variables.values(), traced.q, strict=False):
-        known.update({symbol: variable.dimension.times(per_second, k) for k, symbol in enumerate(chain)})
-    known.update(zip(traced.u, (i.dimension for i in declared.inputs.values()), strict=True))
+    declared, known = traced.model.declaration, _known(traced)
     free = {chain[0] for chain in traced.q[len(declared.variables) :]}
     where = traced.model.model_id()
     for number, residual in enumerate(traced.residuals, 1):
@@ -36,6 +31,22 @@ def check_dimensions(traced: Traced) -> None:
             raise ModelError(f"{where}: output {output.name} is declared in {output.unit} but comes out in {found}")
 
 
+def check_sum(traced: Traced, expression: Any, where: str) -> None:
+    """Raise `ModelError` if an expression combines unlike units; its own unit may be any."""
+    dimension_of(expression, _known(traced), where)
+
+
+def _known(traced: Traced) -> dict[Any, Dimension]:
+    """Return the dimensions of all declared symbols."""
+    declared = traced.model.declaration
+    known = {symbol: declared.parameters[name].dimension for name, symbol in traced.parameters.items()}
+    per_second = Dimension(0, 0, -1)
+    for variable, chain in zip(declared.variables.values(), traced.q, strict=False):
+        known.update({symbol: variable.dimension.times(per_second, k) for k, symbol in enumerate(chain)})
+    known.update(zip(traced.u, (i.dimension for i in declared.inputs.values()), strict=True))
+    return known
+
+
 def dimension_of(expression: Any, known: dict[Any, Dimension], where: str) -> Dimension | None:
     """Return the dimension of an expression, ``None`` for zero, which fits anything."""
     if expression.is_zero:
@@ -44,6 +55,10 @@ def dimension_of(expression: Any, known: dict[Any, Dimension], where: str) -> Di
         return known[expression]
     if expression.is_number:
         return NUMBER
+    if isinstance(expression, sp.Piecewise):
+        for relation in sp.And(*(condition for _, condition in expression.args)).atoms(sp.core.relational.Relational):
+            _alike(relation, [dimension_of(side, known, where) for side in relation.args], where)
+        return _alike(expression, [dimension_of(value, known, where) for value, _ in expression.args], where)
     parts = [dimension_of(argument, known, where) for argument in expression.args]
     if expression.is_Mul:
         total = NUMBER
@@ -58,8 +73,8 @@ def dimension_of(expression: Any, known: dict[Any, Dimension], where: str) -> Di
         return _alike(expression, parts, where)
     if isinstance(expression, sp.Abs):
         return parts[0]
-    if isinstance(expression, sp.Piecewise | sp.sign):
-        return NUMBER if isinstance(expression, sp.sign) else _alike(expression, parts, where)
+    if isinstance(expression, sp.sign):
+        return NUMBER
     for argument, part in zip(expression.args, parts, strict=True):
         if part not in (None, NUMBER):
             raise ModelError(f"{where}: '{expression}' is a function of '{argument}', which has the unit {part}")

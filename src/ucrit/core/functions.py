@@ -36,4 +36,48 @@ sqrt = _dispatch("sqrt", "sqrt", "square root")
 exp = _dispatch("exp", "exp", "exponential")
 log = _dispatch("log", "log", "natural logarithm")
 tanh = _dispatch("tanh", "tanh", "hyperbolic tangent")
-sign = _dispatch("sign", "sign", "sign")
+
+
+def where(condition: Any, yes: Any, no: Any) -> Any:
+    """Return ``yes`` where the condition holds and ``no`` elsewhere, for floats, arrays or symbols.
+
+    >>> float(where(2 > 1, 3.0, 4.0))
+    3.0
+    """
+    if isinstance(condition, bool | np.bool_):
+        return yes if condition else no
+    if any(hasattr(argument, "free_symbols") for argument in (condition, yes, no)):
+        import sympy
+
+        return sympy.Piecewise((yes, condition), (no, True))
+    return np.where(condition, yes, no)
+
+
+def minimum(a: Any, b: Any) -> Any:
+    """Return the smaller of two floats, arrays or symbols; its slope is that of the smaller one."""
+    return where(a < b, a, b)
+
+
+def maximum(a: Any, b: Any) -> Any:
+    """Return the larger of two floats, arrays or symbols; its slope is that of the larger one."""
+    return where(a > b, a, b)
+
+
+def sign(a: Any) -> Any:
+    """Return -1, 0 or 1, the sign of floats, arrays or symbols; its slope is zero, also where it jumps."""
+    if hasattr(a, "free_symbols"):
+        return where(a > 0, 1, where(a < 0, -1, 0))
+    return np.sign(a)
+
+
+def grouped(a: Any) -> Any:
+    """Return a pure number unchanged; as a formula of parameters, it is then carried as one thing.
+
+    >>> grouped(0.5)
+    0.5
+    """
+    if getattr(a, "free_symbols", None):
+        from .grouped import Group
+
+        return Group(a)
+    return a

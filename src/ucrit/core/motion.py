@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache, cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -13,6 +13,16 @@ from .cache import cached
 from .codegen import build
 from .compiled import Arguments, Array, derive_facts
 from .model import Model
+
+
+class Slopes(NamedTuple):
+    """Matrices (..., rows, columns): ``w' = A dw + B du + E dp``, ``y = C dw + D du`` about a point of the motion."""
+
+    A: Array
+    B: Array
+    C: Array
+    D: Array
+    E: Array
 
 
 @dataclass(frozen=True)
@@ -62,6 +72,119 @@ class Motion:
         w = np.asarray(w, dtype=float)
         z = self.highest(w, u, arguments)
         return np.array([w[i] if kind == "w" else z[i] for kind, i in self._facts["rates"]])
+
+    @cached_property
+    def _slope_facts(self) -> Any:
+        return cached(self.model, "motion-slopes", lambda: derive_facts("motion_slope", self.model))
+
+    @cached_property
+    def _slope_functions(self) -> dict[str, Callable[..., tuple[Any, ...]]]:
+        return {name: build(facts["source"], name) for name, facts in self._slope_facts.items()}
+
+    def slopes(self, w: Array, u: Array, arguments: Arguments) -> Slopes:
+        """Return the exact linearisation at any state, for arrays of states, inputs and parameters.
+
+        Parameters
+        ----------
+        w, u
+            States (n, ...) and inputs (m, ...).
+        arguments
+            Parameters in declared order, broadcasting over ``...``.
+        """
+        w, u = np.asarray(w, dtype=float), np.asarray(u, dtype=float)
+        z = self.highest(w, u, arguments)
+        lead = np.broadcast_shapes(w.shape[1:], u.shape[1:], *(np.shape(a) for a in arguments))
+        n, m = len(self.labels), len(u)
+        residual = self._stacked("residual", (len(z), n + m + len(arguments)), lead, (w, z, u, arguments))
+        M = self._mass(w, u, arguments, lead)
+        dz = -np.linalg.solve(M, residual)
+        rows = []
+        for kind, i in self._facts["rates"]:
+            row = np.zeros((*lead, n + m + len(arguments)))
+            if kind == "w":
+                row[..., i] = 1
+            else:
+                row = dz[..., i, :]
+            rows.append(row)
+        by_all = np.stack(rows, axis=-2)
+        outputs = len(self.model.declaration.outputs)
+        direct = self._stacked("output", (outputs, n + len(z) + m), lead, (w, z, u, arguments))
+        Cw, Cz, D = np.split(direct, [n, n + len(z)], axis=-1)
+        by_output = np.concatenate([Cw, D], axis=-1) + Cz @ dz[..., : n + m]
+        return Slopes(
+            by_all[..., :n], by_all[..., n : n + m], by_output[..., :n], by_output[..., n:], by_all[..., n + m :]
+        )
+
+    def _mass(self, w: Array, u: Array, arguments: Arguments, lead: tuple[int, ...]) -> Array:
+        n = int(self._facts["size"])
+        entries = self._function(w, u, arguments)[: n * n]
+        return np.stack([np.broadcast_to(e, lead) for e in entries], axis=-1).reshape(*lead, n, n)
+
+    def _stacked(self, name: str, shape: tuple[int, int], lead: tuple[int, ...], groups: Any) -> Array:
+        """Put slopes in their places of matrices that are zero elsewhere."""
+        matrix = np.zeros((*lead, *shape))
+        with np.errstate(all="ignore"):
+            values = self._slope_functions[name](*groups)
+        for (i, j), value in zip(self._slope_facts[name]["places"], values, strict=True):
+            matrix[..., i, j] = value
+        return matrix
+
+    def broken(self, w: Array, u: Array, arguments: Arguments) -> list[tuple[str, Array, Array]]:
+        """Return each constraint as text, what is left of it at a state, and the sum of its terms' sizes."""
+        terms = iter(build(self._facts["terms"], "terms")(w, u, arguments))
+        found = []
+        for text, length in zip(self._facts["conditions"], self._facts["lengths"], strict=True):
+            own = np.array(np.broadcast_arrays(*(next(terms) for _ in range(length))), dtype=float)
+            found.append((text, own.sum(axis=0), np.abs(own).sum(axis=0)))
+        return found
+
+    @cached_property
+    def _event_facts(self) -> Any:
+        if not hasattr(self.model, "events"):
+            return {"names": [], "ends": [], "ways": [], "places": []}
+        return cached(self.model, "motion-events", lambda: derive_facts("motion_event", self.model))
+
+    @cached_property
+    def _event_functions(self) -> tuple[Callable[..., tuple[Any, ...]], ...]:
+        return tuple(build(self._event_facts[name], name) for name in ("values", "settings"))
+
+    @property
+    def event_names(self) -> tuple[str, ...]:
+        """Names of the model's events."""
+        return tuple(self._event_facts["names"])
+
+    @property
+    def event_ends(self) -> tuple[bool, ...]:
+        """Whether each event ends the motion."""
+        return tuple(self._event_facts["ends"])
+
+    @property
+    def event_ways(self) -> tuple[int, ...]:
+        """Direction in which each event's value crosses zero: 1 rising, -1 falling, 0 either."""
+        return tuple(self._event_facts["ways"])
+
+    def event_values(self, w: Array, u: Array, arguments: Arguments) -> Array:
+        """Return the values of the events, one a row, which cross zero where they happen."""
+        z = self.highest(w, u, arguments)
+        values = self._event_functions[0](w, z, u, arguments)
+        return np.array(np.broadcast_arrays(*values, np.zeros(np.shape(w)[1:]))[:-1], dtype=float)
+
+    def event_changes(self, which: int) -> bool:
+        """Tell whether an event sets states or inputs."""
+        return bool(self._event_facts["places"][which])
+
+    def after_event(self, which: int, w: Array, u: Array, arguments: Arguments) -> tuple[Array, dict[int, Array]]:
+        """Return the states after an event, and the inputs that it sets, by place."""
+        places = self._event_facts["places"]
+        first = sum(map(len, places[:which]))
+        values = self._event_functions[1](w, self.highest(w, u, arguments), u, arguments)[first:]
+        w, held = np.array(w, dtype=float), {}
+        for (group, i), value in zip(places[which], values, strict=False):
+            if group == "u":
+                held[int(i)] = np.asarray(value, dtype=float)
+            else:
+                w[i] = value
+        return w, held
 
     def outputs(self, w: Array, u: Array, arguments: Arguments) -> Array:
         """Return the model's outputs, one a row."""

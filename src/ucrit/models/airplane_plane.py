@@ -6,7 +6,8 @@ the two lifts share the weight such that they balance about the centre of mass.
 """
 
 from ..bondgraph import Graph, I, R, Se, Sf, bodies, equations_bond_graph, one, running_gear
-from ..core import Model, cos, output, param, speed, state
+from ..core import Drawing, Model, cos, output, param, speed, state
+from ..parts.shapes import airplane_side
 from ..parts.wings import angle_of_attack
 
 
@@ -77,3 +78,6 @@ class AirplanePlane(Model):
     def outputs(self, x):
         wing, tail = self.lifts(x.W, 0)
         return {"L": wing + tail, "M": self.x_a * wing - self.l_t * tail}
+
+    def drawing(self, x):
+        return Drawing("side", airplane_side(1.8 * self.l_t, up=-1), turned=True, travel=(self.U, x.W, -x.q))

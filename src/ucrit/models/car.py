@@ -4,7 +4,8 @@ Slip angles are those of the tires' contact points to their wheels' planes; stee
 """
 
 from ..bondgraph import Graph, Sf, bodies, equations_bond_graph, f, running_gear
-from ..core import Model, cos, input, output, param, speed, state
+from ..core import Drawing, Model, cos, input, output, param, speed, state
+from ..parts.shapes import car
 from ..parts.tires import linear_side_force, slip_angle
 
 
@@ -66,3 +67,6 @@ class Car(Model):
             "alpha_f": front,
             "alpha_r": rear,
         }
+
+    def drawing(self, x, u):
+        return Drawing("top", car(self.a, self.b, u.delta_f, u.delta_r), turned=True, travel=(self.U, x.V, x.r))

@@ -4,7 +4,8 @@ The spring and the damper may also push where others pull: negative k and b stan
 """
 
 from ..bondgraph import C, Graph, I, R, equations_bond_graph, one
-from ..core import Model, coordinate, param
+from ..core import Drawing, Model, coordinate, param
+from ..parts.shapes import mass_on_a_spring
 
 
 class Oscillator(Model):
@@ -40,3 +41,6 @@ class Oscillator(Model):
 
     def equations_newton(self, x, dx, ddx):
         return self.m * ddx.x + self.b * dx.x + self.k * x.x
+
+    def drawing(self, x):
+        return Drawing("side", mass_on_a_spring(0.5, x.x))

@@ -7,7 +7,7 @@ the forces that do so: what is left follows.
 
 from ..bondgraph import Graph, Se, bodies, equations_bond_graph
 from ..core import Model, input, param, speed, state
-from ..parts.rigid_body import components, euler, inertia_tensor, newton
+from ..parts.rigid_body import components, euler, inertia_tensor, newton, possible_inertia
 
 
 class RigidBody(Model):
@@ -56,6 +56,10 @@ class RigidBody(Model):
         )
 
     equations_bond_graph = equations_bond_graph
+
+    def possible(self):
+        given = [name for name in type(self).declaration.parameters if name.startswith("I_")]
+        return possible_inertia(", ".join(given), self.inertia())
 
     def equations(self, x, dx, u):
         spin = components(x, "p q r")

@@ -4,7 +4,8 @@ theta is positive when the trailer's rear swings to the left; the axle lies a + 
 """
 
 from ..bondgraph import C, Graph, R, Sf, bodies, equations_bond_graph, f, one, q, running_gear
-from ..core import Model, coordinate, cos, param, sin, speed
+from ..core import Drawing, Model, coordinate, cos, param, sin, speed
+from ..parts.shapes import trailer
 from ..parts.tires import linear_side_force, slip_angle
 
 
@@ -73,3 +74,6 @@ class Trailer(Model):
             self.m * acceleration - (Y * cos(x.theta) - self.k * x.x),
             self.I_c * ddx.theta + about_hitch - ((self.a + self.b) * Y - self.c * dx.theta),
         )
+
+    def drawing(self, x):
+        return Drawing("top", trailer(self.a, self.b, (0, x.x), -x.theta), travel=(self.U, 0, 0))

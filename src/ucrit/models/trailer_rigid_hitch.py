@@ -4,7 +4,8 @@ theta is positive when the trailer's rear swings to the left; the axle lies a + 
 """
 
 from ..bondgraph import Graph, Sf, bodies, equations_bond_graph, f, one, q, running_gear
-from ..core import Model, coordinate, cos, param, sin, speed
+from ..core import Drawing, Model, coordinate, cos, param, sin, speed
+from ..parts.shapes import trailer
 from ..parts.tires import linear_side_force, slip_angle
 
 
@@ -51,3 +52,6 @@ class TrailerRigidHitch(Model):
         about_hitch = (self.I_c + self.m * self.a**2) * ddx.theta
         Y = linear_side_force(self.C, slip_angle(*self.axle_velocity(x, dx)))
         return about_hitch - (self.a + self.b) * Y
+
+    def drawing(self, x):
+        return Drawing("top", trailer(self.a, self.b, angle=-x.theta), travel=(self.U, 0, 0))

@@ -4,8 +4,9 @@ The truck frame moves straight with speed V. f_x acts along, f_y across the roll
 """
 
 from ..bondgraph import C, Graph, I, R, Sf, equations_bond_graph, one, q, running_gear
-from ..core import Model, coordinate, cos, param, sin, speed
+from ..core import Drawing, Model, coordinate, cos, param, sin, speed
 from ..parts.creep import contact_velocities, creep_force, creep_forces, creepage
+from ..parts.shapes import rails, wheelset
 
 
 class Wheelset(Model):
@@ -72,3 +73,7 @@ class Wheelset(Model):
     def forces(self, x, dx):
         velocities = contact_velocities(self.V, x.y, x.psi, dx.y, dx.psi, self.d, self.r_0, self.lambda_)
         return creep_forces(self.V, velocities, self.f_x, self.f_y)
+
+    def drawing(self, x):
+        shape = (*rails(self.d, 3 * self.d), *wheelset(self.d, self.r_0, (0, x.y), x.psi))
+        return Drawing("top", shape, travel=(self.V, 0, 0))
