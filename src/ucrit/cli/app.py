@@ -18,9 +18,13 @@ COMMANDS = {
     "list": "listing",
     "show": "show",
     "new": "new",
+    "simulate": "simulate",
     "sweep": "sweep",
     "handling": "handling",
+    "boundary": "boundary",
     "routh": "routh",
+    "bonds": "bonds",
+    "tire": "tire",
     "check": "check",
     "completion": "completion",
 }

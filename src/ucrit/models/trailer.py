@@ -3,7 +3,9 @@
 theta is positive when the trailer's rear swings to the left; the axle lies a + b behind the hitch.
 """
 
-from ..core import Model, coordinate, cos, param, sin, speed
+from ..bondgraph import C, Graph, R, Sf, bodies, equations_bond_graph, f, one, q, running_gear
+from ..core import Drawing, Model, coordinate, cos, param, sin, speed
+from ..parts.shapes import trailer
 from ..parts.tires import linear_side_force, slip_angle
 
 
@@ -42,6 +44,27 @@ class Trailer(Model):
             (-self.c * dx.theta, dx.theta),
         )
 
+    def bond_graph(self):
+        theta = q("theta")
+        return Graph(
+            Sf("speed", self.U),
+            one("road"),
+            "speed -> road",
+            one("x"),
+            C("hitch", 1 / self.k),
+            "x -> hitch",
+            bodies.swinging_body(self.m, self.I_c, self.a, ahead="road", left="x"),
+            R("damper", self.c),
+            "theta -> damper",
+            running_gear.velocity("axle", road=sin(theta), x=cos(theta), theta=self.a + self.b),
+            self.tire("axle", f("road") * cos(theta) - f("x") * sin(theta)),
+        )
+
+    def tire(self, at, along):
+        return running_gear.tire(at, lambda v: linear_side_force(self.C, slip_angle(v, along)))
+
+    equations_bond_graph = equations_bond_graph
+
     def equations_newton(self, x, dx, ddx):
         lateral, longitudinal = self.axle_velocity(x, dx)
         Y = linear_side_force(self.C, slip_angle(lateral, longitudinal))
@@ -51,3 +74,6 @@ class Trailer(Model):
             self.m * acceleration - (Y * cos(x.theta) - self.k * x.x),
             self.I_c * ddx.theta + about_hitch - ((self.a + self.b) * Y - self.c * dx.theta),
         )
+
+    def drawing(self, x):
+        return Drawing("top", trailer(self.a, self.b, (0, x.x), -x.theta), travel=(self.U, 0, 0))

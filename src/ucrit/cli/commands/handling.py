@@ -63,10 +63,6 @@ def _writer(out: str | None) -> Callable[[Any], None]:
         return lambda result: _draw(result, out)
     if ending not in TABLES:
         raise UcritError(f"the output '{out}' must end in {', '.join((*PICTURES, *TABLES))}")
-    if ending == ".nc":
-        from .sweep import _to_netcdf
-
-        return lambda result: _to_netcdf(result, out)
     return lambda result: getattr(result, TABLES[ending])(out)
 
 
