@@ -1,9 +1,13 @@
 """Comparison of vehicles: the facts, and a table of eighty columns."""
 
+import numpy as np
 import pytest
 
 from ucrit import UcritError, critical, load, modes, verdict
 from ucrit.analyses.compare import compare
+from ucrit.analyses.static_term import static_term
+from ucrit.catalogue import vehicle_names
+from ucrit.core.compiled import compiled
 
 
 def test_facts_are_those_of_each_vehicle():
@@ -31,6 +35,33 @@ def test_table():
     assert any(line.startswith("critical speed [m/s]") and line.endswith("34.785") for line in lines)
     assert any(line.startswith("stable speeds [m/s]") and line.endswith("below 34.785") for line in lines)
     assert not any(line.startswith("model") for line in lines)
+
+
+def test_car_and_airplane_differ_in_the_term_that_speed_turns():
+    """Karnopp 2004, section 9.V: the airplane's last term grows with U squared, the car's may change its sign."""
+    both = compare(load("bmw-320i"), load("navion-plane"))
+    words = ("its sign may change with speed", "grows like U**2, its sign does not depend on speed")
+    assert ("static term a_0", words) in both.rows()
+    assert max(map(len, str(both).splitlines())) <= 80
+    assert "static term" not in str(compare(load("bmw-320i"), load("oversteering-car")))
+
+
+@pytest.mark.parametrize("name", vehicle_names())
+def test_the_static_term_does_what_is_said_of_it(name):
+    vehicle = load(name)
+    cls = type(vehicle)
+    speed, words = cls.declaration.speed, static_term(cls)
+    if not words:
+        return
+    U = abs(float(vehicle.values[speed])) * np.geomspace(0.01, 100, 41)
+    a = compiled(cls, 1).coefficients(vehicle.with_(**{speed: U}).arguments())
+    last = np.broadcast_to(a[compiled(cls, 1).structural_zeros] / a[-1], U.shape)
+    if "positive" in words or "negative" in words:
+        assert np.all((last > 0) == ("positive" in words))
+    if "does not depend" in words:
+        assert len(set(np.sign(last))) == 1
+    if "U**2," in words:
+        np.testing.assert_allclose(last / U**2, last[0] / U[0] ** 2, rtol=1e-9)
 
 
 @pytest.mark.parametrize("count", [2, 3])

@@ -5,13 +5,13 @@ import json
 import subprocess
 import sys
 
-import control
 import numpy as np
 import pytest
 import xarray
 from scipy.io import loadmat
 from scipy.signal import StateSpace
 
+import control
 from ucrit import UcritError, critical, load, modes
 from ucrit.analyses.convert import to_control, to_scipy
 from ucrit.analyses.locus import locus
@@ -178,6 +178,8 @@ def test_control_systems_have_names_and_the_same_poles():
 def test_vehicles_without_inputs_convert_too():
     caravan = load("caravan")
     assert to_control(caravan).ninputs == 0
+    with pytest.raises(UcritError, match="trailer-kinematic has one state and no input"):
+        to_control(load("caravan-kinematic"))
     assert to_scipy(caravan).B.shape == (4, 0)
 
 

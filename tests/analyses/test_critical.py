@@ -153,3 +153,11 @@ def test_several_models_of_one_limit_agree():
     undamped = load("caravan-rigid-tire-undamped")
     damped = find_model("trailer-rigid-tire")(**undamped.values, c=0)
     assert [c.value for c in critical(damped, "I_c")] == [c.value for c in critical(undamped, "I_c")]
+
+
+def test_a_root_through_infinity():
+    """Where the mass is Z_wdot, the force per downward acceleration, nothing resists that acceleration."""
+    (found,) = critical(load("boeing-747"), "m")
+    assert (found.kind, found.stable, found.frequency_hz) == ("order", "above", 0.0)
+    assert found.value == pytest.approx(load("boeing-747").Z_wdot, rel=1e-15)
+    assert str(found).endswith("kg: root through infinity of the short period motion, stable above")

@@ -85,6 +85,17 @@ def test_criteria_of_the_limit():
     assert str(damped.boundary("U")) == "U = c*(a + b)/(I_c - a*b*m)"
 
 
+def test_the_limit_of_a_large_model_is_given_without_its_criteria():
+    truck = load("coach-truck")
+    found = limit(truck, m=inf)
+    assert (found.order, [lost.count for lost in found.lost]) == (8, [4])
+    assert found.criteria is None
+    assert str(found).endswith("the conditions for stability are too long to be read")
+    values = modes(truck.with_(m=truck.m * 1e9)).eigenvalues
+    fast = np.sort_complex(values[np.argsort(np.abs(values))[4:]])
+    assert fast == pytest.approx(np.sort_complex(found.roots(truck)), rel=1e-5)
+
+
 def test_no_root_left():
     found = limit(find_model("trailer-rigid-hitch"), C=0)
     assert (found.order, found.lost[0].fast, found.lost[0].power) == (0, False, 0.5)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from ucrit import UcritError, find_model, load, modes
+from ucrit import UcritError, find_model, frequency_response, load, modes
 from ucrit.analyses.convert import to_control
 from ucrit.analyses.transfer import transfer
 
@@ -36,6 +36,32 @@ def test_against_python_control(name, input, output):
     expected = full[system.output_labels.index(output), system.input_labels.index(input)]
     scale = np.abs(expected).max()
     assert transfer(vehicle, input, output)(points) == pytest.approx(expected, rel=1e-9, abs=1e-11 * scale)
+
+
+@pytest.mark.parametrize("name", [*VEHICLES, "neutral-car", "navion"])
+def test_handed_over_in_one_call(name):
+    vehicle, points = load(name), 2j * np.pi * np.geomspace(0.01, 10, 20)
+    declared = type(vehicle).declaration
+    outputs = [*declared.variables, *declared.outputs]
+    for input in declared.inputs:
+        response = frequency_response(vehicle, input, outputs, points.imag / (2 * np.pi))
+        for output in outputs:
+            function = transfer(vehicle, input, output)
+            system = function.to_control()
+            assert (system.input_labels, system.output_labels) == ([input], [output])
+            scale = np.abs(response[output]).max()
+            assert system(points) == pytest.approx(response[output], rel=1e-9, abs=1e-11 * scale)
+            _, values = function.to_scipy().freqresp(points.imag)
+            assert values == pytest.approx(response[output], rel=1e-9, abs=1e-11 * scale)
+
+
+@pytest.mark.parametrize("hand_over", ["to_control", "to_scipy"])
+def test_symbols_and_arrays_are_not_handed_over(hand_over):
+    with pytest.raises(UcritError, match="numbers need a vehicle"):
+        getattr(transfer(find_model("car"), "delta_f", "r"), hand_over)()
+    several = load("understeering-car").with_(m=[1000.0, 2000.0])
+    with pytest.raises(UcritError, match="give one value each for m"):
+        getattr(transfer(several, "delta_f", "r"), hand_over)()
 
 
 def test_the_books_transfer_functions():

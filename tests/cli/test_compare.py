@@ -51,7 +51,7 @@ def test_models_may_differ_and_lack_a_speed(run: Run) -> None:
 
 def test_json_holds_the_analyses_and_the_differences(run: Run) -> None:
     found = json.loads(run("compare", "caravan", "understeering-car", "--json").stdout)
-    assert list(found) == ["schema", "vehicles", "differing"]
+    assert list(found) == ["schema", "vehicles", "static_terms", "differing"]
     alone = [json.loads(run("analyze", name, "--json").stdout) for name in ("caravan", "understeering-car")]
     assert found["vehicles"] == alone
     differing = {entry["parameter"]: entry for entry in found["differing"]}

@@ -28,7 +28,7 @@ def test_draws(run, tmp_path, name, start):
 @pytest.mark.parametrize(
     ("words", "message"),
     [
-        (("--out", "a.gif"), "the output 'a.gif' must end in .png, .svg, .pdf, .csv, .nc, .json, .mat"),
+        (("--out", "a.gif"), "the output 'a.gif' must end in .csv, .nc, .json, .mat, .png, .svg, .pdf"),
         (("--from", "30", "--to", "20"), "the range from 30 to 20 m/s is empty"),
         (("--along", "kapa"), "there is no parameter 'kapa'; did you mean 'kappa'?"),
         (("--at", "3 kg"), "kg"),

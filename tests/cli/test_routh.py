@@ -41,6 +41,12 @@ def test_another_variable(run: Run) -> None:
     assert "z^2 + 3 z + 2" in run("routh", "(z + 1)(z + 2)", "--variable", "z").stdout
 
 
+def test_rows_and_notes_name_the_variable(run: Run) -> None:
+    lines = run("routh", "z^4 + z^3 + 5 z^2 + 4 z + 4", "--variable", "z").stdout.splitlines()
+    assert [line.split()[0] for line in lines[2:7]] == ["z^4", "z^3", "z^2", "z^1", "z^0"]
+    assert lines[7] == "row z^1 vanished; replaced by the derivative of the auxiliary polynomial z^2 + 4"
+
+
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [

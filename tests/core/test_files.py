@@ -1,8 +1,8 @@
 import pytest
 
-from ucrit.catalogue import find_model, find_part, load, model_names, vehicle_names
+from ucrit.catalogue import controlled, find_model, find_part, load, model_names, vehicle_names
 from ucrit.core.errors import UcritError
-from ucrit.core.files import parse_vehicle, vehicle_template, write_vehicle
+from ucrit.core.files import Find, parse_vehicle, vehicle_template, write_vehicle
 
 GOOD = """model = "car"
 name = "x"
@@ -17,8 +17,11 @@ U = "50 km/h"
 """
 
 
+FIND = Find(find_model, find_part, controlled)
+
+
 def parse(text):
-    return parse_vehicle(text, "x.toml", find_model, find_part)
+    return parse_vehicle(text, "x.toml", FIND)
 
 
 def test_units_in_files():
@@ -58,13 +61,13 @@ def test_wrong_files_are_refused_in_one_sentence(old, new, message):
 @pytest.mark.parametrize("name", vehicle_names())
 def test_writing_and_reading_a_vehicle_loses_nothing(name):
     vehicle = load(name)
-    again = parse_vehicle(write_vehicle(vehicle), name, find_model, find_part)
+    again = parse_vehicle(write_vehicle(vehicle), name, FIND)
     assert again == vehicle
 
 
 def test_names_with_quotes_and_line_breaks_survive():
     car = parse(GOOD).with_info(name='a "b" \\ c\n\x07d', source="é\u2028")
-    again = parse_vehicle(write_vehicle(car), car.info.file, find_model, find_part)
+    again = parse_vehicle(write_vehicle(car), car.info.file, FIND)
     assert again == car
 
 
@@ -72,11 +75,13 @@ def test_names_with_quotes_and_line_breaks_survive():
 def test_a_template_only_lacks_numbers(name):
     text = vehicle_template(find_model(name))
     with pytest.raises(UcritError, match="is missing"):
-        parse_vehicle(text, "new.toml", find_model, find_part)
+        parse_vehicle(text, "new.toml", FIND)
     for parameter in find_model(name).declaration.parameters.values():
-        value = 0.5 if parameter.allows(0.5) else (parameter.lower + parameter.upper) / 2
+        size = 0.5 if parameter.sign else 0.1  # products of inertia are less than moments
+        middle = (parameter.lower + parameter.upper) / 2
+        value = next(x for x in (size, -size, middle) if parameter.allows(x))
         text = text.replace(f"# {parameter.name} = ", f"{parameter.name} = {value} ")
-    assert parse_vehicle(text, "new.toml", find_model, find_part).model_id() == name
+    assert parse_vehicle(text, "new.toml", FIND).model_id() == name
 
 
 @pytest.mark.parametrize(

@@ -109,6 +109,38 @@ def test_stiffness_at_which_a_short_trailer_with_soft_tires_gains_stability(seed
     assert crossing(trailer, "k", k) == pytest.approx(k, rel=1e-9)
 
 
+@pytest.mark.parametrize("seed", SEEDS)
+def test_critical_speed_with_hitch_damping_and_rigid_tires(seed):
+    trailer = varied(load("caravan-rigid-tire"), seed)
+    m, I, a, b, c = (trailer.values[name] for name in ("m", "I_c", "a", "b", "c"))
+    if m * a * b > I:
+        assert len(critical(trailer)) == 0
+        assert verdict(trailer).stable
+    else:
+        assert agree(trailer, "U", c * (a + b) / (I - m * a * b)).stable == "below"
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_critical_inertia_of_an_undamped_hitch_and_rigid_tires(seed):
+    trailer = varied(load("caravan-rigid-tire-undamped"), seed)
+    m, a, b = (trailer.values[name] for name in ("m", "a", "b"))
+    assert agree(trailer, "I_c", m * a * b).stable == "below"
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_critical_speeds_of_the_flexible_hitch_by_hurwitz_and_eigenvalues(seed):
+    trailer = varied(load("caravan"), seed)
+    m, I, a, b, C, k, c = (trailer.values[name] for name in ("m", "I_c", "a", "b", "C", "k", "c"))
+    P = np.polynomial.Polynomial  # in 1/U
+    a_0, a_1 = P([k * C * (a + b)]), P([k * c, k * C * (a + b) ** 2])
+    a_2, a_3 = P([m * C * b + k * (I + m * a**2), C * c]), P([m * c, C * (I + m * b**2)])
+    roots = (a_1 * a_2 * a_3 - m * I * a_1**2 - a_0 * a_3**2).roots()
+    speeds = sorted(1 / r.real for r in roots if abs(r.imag) < 1e-9 * abs(r) and r.real > 0)
+    assert [found.value for found in critical(trailer)] == pytest.approx(speeds, rel=1e-9)
+    for speed in speeds:
+        assert crossing(trailer, "U", speed) == pytest.approx(speed, rel=1e-9)
+
+
 def test_criterion_of_the_full_fourth_order():
     (condition,) = criteria(find_model("trailer-undamped-hitch"))
     m, I, a, b, C, k = (

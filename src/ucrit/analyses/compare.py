@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from ..core.compiled import direction
 from ..core.errors import UcritError
 from ..core.model import Model
 from .critical import CriticalValues, critical
 from .modes import Mode, modes
+from .static_term import static_term
 from .verdict import Verdict, verdict
 
 WIDTH = 80
@@ -16,13 +18,17 @@ WIDTH = 80
 
 @dataclass(frozen=True)
 class Subject:
-    """What is compared of one vehicle; ``speeds`` is ``None`` where its model has no speed."""
+    """What is compared of one vehicle; ``speeds`` is ``None`` where its model has no speed.
+
+    ``static_term`` tells how the sign of its model's static term depends on speed; see `static_term`.
+    """
 
     vehicle: Model
     name: str
     verdict: Verdict
     speeds: CriticalValues | None
     modes: tuple[Mode, ...]
+    static_term: str
 
 
 @dataclass(frozen=True)
@@ -55,6 +61,8 @@ class Comparison:
             found = [s.speeds[i] if s.speeds is not None and i < len(s.speeds) else None for s in subjects]
             rows.append(("critical speed [m/s]", tuple(f"{c.value:.5g}" if c else "-" for c in found)))
             rows.append(("  of", tuple(c.mode if c else "-" for c in found)))
+        if len({s.static_term for s in subjects}) > 1:
+            rows.append(("static term a_0", tuple(s.static_term or "-" for s in subjects)))
         for name in self.mode_names():
             found_modes = [next((m for m in s.modes if m.name == name), None) for s in subjects]
             rows.append((name, tuple(_mode(m) for m in found_modes)))
@@ -131,7 +139,8 @@ def compare(*vehicles: Model) -> Comparison:
 
 def _subject(vehicle: Model, name: str) -> Subject:
     speeds = critical(vehicle) if type(vehicle).declaration.speed else None
-    return Subject(vehicle, name, verdict(vehicle), speeds, tuple(modes(vehicle)))
+    term = static_term(type(vehicle), direction(vehicle))
+    return Subject(vehicle, name, verdict(vehicle), speeds, tuple(modes(vehicle)), term)
 
 
 def _names(vehicles: tuple[Model, ...]) -> list[str]:

@@ -19,6 +19,12 @@ from .implied import implied
 MAX_PRODUCTS = 10**5
 """Products that expanding a determinant may take; more of them give a condition that nobody can read."""
 
+LARGE = 10**15
+"""Whole numbers up to which coefficients are exact as doubles."""
+
+DIGITS = 17
+"""Digits of a double that reads back as the same."""
+
 MAX_TERMS = 1500
 """Terms that a condition may have before it is factored."""
 
@@ -165,7 +171,7 @@ def _facts(
     parameters: Sequence[Any],
     functions: Any,
 ) -> dict[str, Any]:
-    parts = [(readable(factor).xreplace(functions), power) for factor, power in left]
+    parts = [((_rounded(factor) or readable(factor)).xreplace(functions), power) for factor, power in left]
     product = sp.Mul(*(sp.Pow(e, p, evaluate=False) if p > 1 else e for e, p in parts), evaluate=False)
     used = [p for p in parameters if product.has(p)]
     return {
@@ -177,6 +183,23 @@ def _facts(
         "source": generate("criterion", [used], [product]),
         "parameters": [p.name for p in used],
     }
+
+
+def _rounded(factor: PolyElement) -> Any:
+    """Return a polynomial with its coefficients as doubles, the largest being 1, ``None`` where whole numbers do.
+
+    The numbers of a vehicle, cleared of denominators, have hundreds of digits, which nobody can read.
+    """
+    largest = max(abs(int(c)) for c in factor.coeffs())
+    if largest < LARGE:
+        return None
+    return sp.Add(
+        *(
+            sp.Float(sp.Rational(int(c), largest), DIGITS)
+            * sp.Mul(*(g**e for g, e in zip(factor.ring.symbols, monom, strict=True)))
+            for monom, c in factor.terms()
+        )
+    )
 
 
 def _boundaries(factor: PolyElement, functions: Any) -> list[dict[str, Any]]:
@@ -196,7 +219,7 @@ def _boundaries(factor: PolyElement, functions: Any) -> list[dict[str, Any]]:
                 {
                     "parameter": generator.name,
                     "power": power,
-                    **typeset(value),
+                    **typeset(value.n(DIGITS) if _rounded(factor) else value),
                 }
             )
     return found

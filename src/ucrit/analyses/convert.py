@@ -94,7 +94,7 @@ class Tabular:
 
         Raises `MissingExtraError` where pandas is not installed.
         """
-        pandas = _needed("pandas", "data", "a data frame")
+        pandas = needed("pandas", "data", "a data frame")
         columns = list(self.table().columns())
         frame = pandas.DataFrame({name: values for name, _, values in columns})
         frame.attrs["units"] = {name: unit for name, unit, _ in columns if unit}
@@ -105,7 +105,7 @@ class Tabular:
 
         Raises `MissingExtraError` where xarray is not installed.
         """
-        xarray = _needed("xarray", "data", "a labelled array")
+        xarray = needed("xarray", "data", "a labelled array")
         table = self.table()
 
         def variables(group: Sequence[Series]) -> dict[str, Any]:
@@ -129,6 +129,13 @@ class Tabular:
         writer.writerow([f"{name} [{unit}]" if unit else name for name, unit, _ in columns])
         writer.writerows(zip(*(values.tolist() for _, _, values in columns), strict=True))
         write_whole(path, text.getvalue().encode())
+
+    def to_netcdf(self, path: PathLike) -> None:
+        """Write a netCDF file of version 3, whole or not at all.
+
+        Raises `MissingExtraError` where xarray is not installed.
+        """
+        write_whole(path, bytes(self.to_xarray().to_netcdf(engine="scipy")))
 
     def to_json(self, path: PathLike | None = None) -> str:
         """Return the result as JSON text, and write it if a path is given; nan and infinity become null."""
@@ -205,7 +212,8 @@ def _umask() -> int:
     return mask
 
 
-def _needed(module: str, extra: str, what: str) -> Any:
+def needed(module: str, extra: str, what: str) -> Any:
+    """Import a package that an extra installs, or tell which one."""
     try:
         return importlib.import_module(module)
     except ModuleNotFoundError as error:
@@ -231,7 +239,7 @@ def to_control(vehicle: Model) -> Any:
     Raises
     ------
     UcritError
-        If a parameter is an array.
+        If a parameter is an array, or the vehicle has one state and no input, which python-control cannot hold.
     MissingExtraError
         If python-control is not installed.
 
@@ -242,12 +250,17 @@ def to_control(vehicle: Model) -> Any:
     ['delta_f', 'delta_r']
     """
     A, B, C, D, outputs = _observed(vehicle)
-    control = _needed("control", "control", "a control system")
+    control = needed("control", "control", "a control system")
     names = {
         "states": list(labels(vehicle)),
         "inputs": list(type(vehicle).declaration.inputs),
         "outputs": outputs,
     }
+    if B.shape == (1, 0):  # python-control turns a matrix of one row and no column into one of no rows
+        raise UcritError(
+            f"{type(vehicle).model_id()} has one state and no input, which python-control cannot hold; "
+            "to_scipy gives it to SciPy"
+        )
     name = re.sub(r"[^A-Za-z0-9_-]+", " ", vehicle.info.name or type(vehicle).model_id()).strip()
     return control.ss(A, B, C, D, name=name, **names)
 

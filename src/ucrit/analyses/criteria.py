@@ -8,15 +8,18 @@ bounds make positive are dropped. What is left is the criterion.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..core.cache import cached
 from ..core.codegen import build
 from ..core.compiled import direction as direction_of
 from ..core.errors import UcritError, near_match
 from ..core.model import Model
+
+if TYPE_CHECKING:
+    from ..core.linear import CharacteristicPolynomial
 
 
 @dataclass(frozen=True)
@@ -149,21 +152,27 @@ def criteria(
     Raises
     ------
     UcritError
-        If the conditions would be too long to be read, or ``free`` names no parameter.
+        If the conditions would be too long to be read, ``free`` names no parameter, or the vehicle has arrays.
     """
     cls = model if isinstance(model, type) else type(model)
     sense = direction or (1 if isinstance(model, type) else direction_of(model))
     values: dict[str, Any] = {}
+    kept: dict[str, Any] = {}
     if free is not None:
         if isinstance(model, type):
             raise UcritError(f"{cls.model_id()}: free parameters need a vehicle, whose values the others take")
         for name in free:
             if name not in model.values:
                 raise UcritError(f"{cls.model_id()}: there is no parameter '{name}'{near_match(name, model.values)}")
+        if model.dims:
+            raise UcritError(
+                f"criteria with free parameters need scalar values, got arrays for {', '.join(model.dims)}"
+            )
         values = {name: value for name, value in model.values.items() if name not in free}
-    key = f"criteria{sense:+d}" + "".join(f"-{k}={v!r}" for k, v in values.items())
-    piece = key if not values else f"criteria-{_short_hash(key)}"
-    facts = cached(cls, piece, lambda: _derive(cls, sense, values))
+        kept = {name: model.values[name] for name in free}
+    key = f"criteria{sense:+d}" + "".join(f"-{k}={v!r}" for k, v in [*values.items(), *kept.items()])
+    piece = key if not values else f"criteria-{_short_hash(repr(list(kept)) + key)}"
+    facts = cached(cls, piece, lambda: _derive(cls, sense, values, kept))
     if "refused" in facts:
         raise UcritError(facts["refused"])
     conditions = tuple(
@@ -186,18 +195,41 @@ def _short_hash(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
-def _derive(cls: type[Model], direction: int, values: Mapping[str, Any]) -> dict[str, Any]:
-    import sympy as sp
-
+def _derive(cls: type[Model], direction: int, values: Mapping[str, Any], kept: Mapping[str, Any]) -> dict[str, Any]:
     from ..core.derive import symbolic
     from .conditions import conditions
 
     system = symbolic(cls, direction)
     if values:
-        symbols = system.traced.parameters
-        system = system.substituted({symbols[name]: sp.Rational(str(v)) for name, v in values.items()})
+        full, symbols = system.polynomial, system.traced.parameters
+        system = system.substituted({symbols[name]: _rational(v) for name, v in values.items()})
+        if system.polynomial.zeros > full.zeros:  # a_0 vanishes for these numbers: a root stays at zero
+            order = len(system.polynomial.coefficients) - 1 - full.zeros
+            return {"conditions": [], "kind": "asymptotic", "settled": False, "zeros": full.zeros, "order": order}
+        polynomial = _with_sign_of(system.polynomial, {symbols[name]: _rational(v) for name, v in kept.items()})
+    else:
+        polynomial = system.polynomial
     parameters = [symbol for name, symbol in system.traced.parameters.items() if name not in values]
     try:
-        return conditions(system.polynomial, parameters, cls.model_id())
+        return conditions(polynomial, parameters, cls.model_id())
     except UcritError as error:  # kept like a result: finding out that it is too long takes long too
-        return {"refused": str(error)}
+        if not values:
+            return {"refused": str(error)}
+        free = ", ".join(symbol.name for symbol in parameters)
+        return {
+            "refused": f"{cls.model_id()}: the conditions in {free} are too long to be read; "
+            "critical gives the values of one parameter at which they fail"
+        }
+
+
+def _rational(value: Any) -> Any:
+    import sympy as sp
+
+    return sp.Rational(str(value))
+
+
+def _with_sign_of(polynomial: CharacteristicPolynomial, point: Mapping[Any, Any]) -> CharacteristicPolynomial:
+    """Return a polynomial, or its negative, such that its first coefficient is positive for the vehicle."""
+    if polynomial.expressions[-1].subs(point) >= 0:
+        return polynomial
+    return replace(polynomial, coefficients=tuple(-a for a in polynomial.coefficients))

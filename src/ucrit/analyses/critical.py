@@ -17,11 +17,15 @@ import numpy as np
 from ..core.compiled import compiled, direction
 from ..core.errors import UcritError, near_match
 from ..core.model import Model
+from ..core.possible import allowed
 from .convert import Series, Table, Tabular
 from .criteria import Boundary, criteria
 from .exact import exact_search
 from .modes import Mode, modes
 from .scan import scan
+
+NEAR = 1e-9
+"""Share of a critical value by which a root through infinity is looked at beside it."""
 
 
 @dataclass(frozen=True)
@@ -60,7 +64,8 @@ class Critical:
     def __str__(self) -> str:
         at = f" at {self.frequency_hz:.4g} Hz" if self.frequency_hz else ""
         value = f"{self.parameter} = {self.value:.12g}{'' if self.unit == '1' else ' ' + self.unit}"
-        return f"{value}: {self.kind} of the {self.mode}{at}, stable {self.stable}"
+        kind = "root through infinity" if self.kind == "order" else self.kind
+        return f"{value}: {kind} of the {self.mode}{at}, stable {self.stable}"
 
 
 @dataclass(frozen=True)
@@ -177,7 +182,7 @@ def parameter_name(vehicle: Model, parameter: str | None) -> str:
 
 
 def _range(vehicle: Model, name: str, lower: float | None, upper: float | None) -> tuple[float, float]:
-    declared = type(vehicle).declaration.parameters[name]
+    declared = allowed(vehicle, name)
     least, most = declared.lower, declared.upper
     if declared.is_speed:
         least, most = (max(least, 0.0), most) if direction(vehicle) > 0 else (least, min(most, 0.0))
@@ -191,12 +196,20 @@ def _range(vehicle: Model, name: str, lower: float | None, upper: float | None) 
 
 
 def _describe(vehicle: Model, name: str, value: float, kinds: set[str], stable: str) -> Critical:
-    mode = crossing_mode(vehicle.with_(**{name: value}))
+    mode = _fastest_beside(vehicle, name, value, stable) if kinds == {"order"} else None
+    mode = mode or crossing_mode(vehicle.with_(**{name: value}))
     kind = next(iter(kinds)) if len(kinds) == 1 else "flutter" if mode.oscillates else "divergence"
     closed = _closed_form(vehicle, name, value, kind)
     frequency = mode.frequency_hz if kind == "flutter" else 0.0
     unit = type(vehicle).declaration.parameters[name].unit
     return Critical(name, value, unit, kind, frequency, stable, mode.name.rpartition(" ")[0] + _going(kind), closed)
+
+
+def _fastest_beside(vehicle: Model, name: str, value: float, stable: str) -> Mode:
+    """Return the mode that has run off to infinity at a value, as it is just beyond, on the unstable side."""
+    beyond = NEAR * (abs(value) or 1.0)
+    beside = vehicle.with_(**{name: value + beyond if stable == "below" else value - beyond})
+    return max(modes(beside), key=lambda mode: abs(mode.eigenvalue))
 
 
 def _closed_form(vehicle: Model, name: str, value: float, kind: str) -> Boundary | None:

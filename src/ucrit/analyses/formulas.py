@@ -15,6 +15,8 @@ from ..core.linear import LinearSystem
 from ..core.model import Model
 from ..core.trace import Traced
 
+LONGER = 2
+"""An equation this many times longer multiplied out is left as stated: collecting may take minutes, and never won."""
 DOTS = {1: ("\\dot", "&#729;"), 2: ("\\ddot", "&#168;")}
 
 
@@ -59,6 +61,8 @@ def _tidied(residual: Any, traced: Traced) -> Any:
     flat = _expanded(residual)
     for angle in sorted(angles, key=str):
         flat = _expanded(flat.replace(sp.cos(angle) ** 2, 1 - sp.sin(angle) ** 2))
+    if sp.count_ops(flat) > LONGER * sp.count_ops(residual):
+        return residual
     fastest = [s for s in traced.highest if flat.has(s)]
     laws = sorted((f for f in flat.atoms(sp.Function) if not isinstance(f, sp.sin | sp.cos)), key=str)
     collected = [sp.collect(flat, keys, form) for keys in (fastest, [*fastest, *laws]) for form in (None, sp.factor)]

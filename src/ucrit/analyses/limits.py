@@ -43,7 +43,7 @@ class LostRoots:
         ``True``: they decay; ``False``: at least one grows; ``None``: that depends on the parameters, or
         they are undamped to leading order.
     criteria
-        The conditions for their decay.
+        The conditions for their decay; ``None`` where they would be too long to be read.
     """
 
     parameter: str
@@ -51,13 +51,13 @@ class LostRoots:
     power: float
     fast: bool
     stable: bool | None
-    criteria: Criteria
+    criteria: Criteria | None
 
     def __str__(self) -> str:
         where = "infinity" if self.fast else "zero"
         number = f"{self.count} root{'s go' if self.count > 1 else ' goes'}"
         like = self.parameter if self.power == 1 else f"{self.parameter}**{self.power:g}"
-        if self.criteria.kind == "neutral" and self.stable is None:
+        if self.criteria and self.criteria.kind == "neutral" and self.stable is None:
             how = "undamped to leading order"
         else:
             how = {True: "decaying", False: "growing", None: "decaying under conditions of their own"}[self.stable]
@@ -79,7 +79,7 @@ class LimitResult:
     text, latex, mathml
         The polynomial as a whole, highest power first.
     criteria
-        Conditions for the stability of what is left.
+        Conditions for the stability of what is left; ``None`` where they would be too long to be read.
     lost
         The roots that are not in it.
     order_matters
@@ -92,7 +92,7 @@ class LimitResult:
     text: str
     latex: str
     mathml: str
-    criteria: Criteria
+    criteria: Criteria | None
     lost: tuple[LostRoots, ...]
     order_matters: bool
     source: str = field(repr=False)
@@ -114,11 +114,13 @@ class LimitResult:
 
     def __str__(self) -> str:
         taken = ", ".join(f"{name} -> {'infinity' if value else '0'}" for name, value in self.to.items())
-        left = f"{self.text} = 0" if self.criteria.order else "no root stays finite"
+        left = f"{self.text} = 0" if self.order else "no root stays finite"
         lines = [f"{self.model}, {taken}:", f"    {left}", *(f"    {lost}" for lost in self.lost)]
         if self.order_matters:
             lines.append("    another order of these limits gives another result")
-        return "\n".join([*lines, *(str(self.criteria).splitlines() if self.criteria.order else [])])
+        too_long = f"{self.model}: the conditions for stability are too long to be read"
+        why = str(self.criteria) if self.criteria else too_long
+        return "\n".join([*lines, *(why.splitlines() if self.order else [])])
 
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex} = 0$"
@@ -180,7 +182,9 @@ def limit(model: type[Model] | Model, *, direction: int | None = None, **to: flo
     )
 
 
-def _criteria(cls: type[Model], facts: dict[str, Any]) -> Criteria:
+def _criteria(cls: type[Model], facts: dict[str, Any] | None) -> Criteria | None:
+    if facts is None:
+        return None
     found = tuple(
         Criterion(
             **{
@@ -199,7 +203,6 @@ def _derive(cls: type[Model], direction: int, to: dict[str, float]) -> dict[str,
     from ..core import typeset
     from ..core.codegen import generate
     from ..core.derive import symbolic
-    from .conditions import conditions
     from .polynomials import in_s, product
 
     system = symbolic(cls, direction)
@@ -209,9 +212,9 @@ def _derive(cls: type[Model], direction: int, to: dict[str, float]) -> dict[str,
     left = [product(a, polynomial.functions) for a in polynomial.coefficients]
     lost = []
     for escape in escapes:
-        found = conditions(escape.polynomial, parameters, cls.model_id())
-        neutral = found["kind"] == "neutral" and found["settled"] is not False
-        stable = None if neutral else found["settled"]
+        found = _conditions(escape.polynomial, parameters)
+        neutral = found is not None and found["kind"] == "neutral" and found["settled"] is not False
+        stable = None if neutral or found is None else found["settled"]
         lost.append(
             {
                 "parameter": escape.parameter,
@@ -225,9 +228,19 @@ def _derive(cls: type[Model], direction: int, to: dict[str, float]) -> dict[str,
     return {
         "polynomial": [typeset.text(a) for a in left],
         **in_s(left),
-        "criteria": conditions(polynomial, parameters, cls.model_id()),
+        "criteria": _conditions(polynomial, parameters),
         "lost": lost,
         "order_matters": any(other.coefficients != polynomial.coefficients for other in orders),
         "source": generate("coefficients", [parameters], polynomial.expressions),
         "parameters": [p.name for p in parameters],
     }
+
+
+def _conditions(polynomial: Any, parameters: list[Any]) -> dict[str, Any] | None:
+    """Return the conditions for stability, ``None`` where they are too long: the limit is worth having without them."""
+    from .conditions import conditions
+
+    try:
+        return conditions(polynomial, parameters, "limit")
+    except UcritError:
+        return None

@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ..core.compiled import labels, state_space
 from ..core.errors import UcritError, near_match
 from ..core.model import Model
+from ..numerics.exponential import expm
 from .modes import modes
 from .response_results import FrequencyResponse, TimeResponse
 
@@ -173,8 +174,6 @@ def impulse_response(
 
 
 def _in_time(vehicle: Model, input: str, outputs: Any, times: Any, size: float, kind: str) -> TimeResponse:
-    from scipy.linalg import expm
-
     chosen = _choose(vehicle, input, outputs)
     t = np.atleast_1d(_axis(vehicle, "times", times, _times))
     if t.ndim != 1 or not np.all(np.isfinite(t) & (t >= 0)):

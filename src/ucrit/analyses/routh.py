@@ -91,7 +91,8 @@ def routh(polynomial: str | Sequence[Any], variable: str = "s", positive: Iterab
     Raises
     ------
     UcritError
-        If the formula cannot be read or is no polynomial in the variable, or ``positive`` names no symbol of it.
+        If it is no formula or list, cannot be read or is no polynomial in the variable, or ``positive`` names no
+        symbol of it.
 
     Examples
     --------
@@ -121,7 +122,7 @@ def routh(polynomial: str | Sequence[Any], variable: str = "s", positive: Iterab
     for name in taken:
         if name not in names:
             raise UcritError(f"there is no symbol '{name}' to be positive{near_match(name, names)}")
-    array, text = array_of(a), _written(a, variable)
+    array, text = array_of(a, variable), _written(a, variable)
     if names:
         conditions, settled, either_sign = _conditions(a)
         return RouthTest(text, array, conditions, settled, taken, either_sign)
@@ -131,7 +132,10 @@ def routh(polynomial: str | Sequence[Any], variable: str = "s", positive: Iterab
 def _exact(coefficients: Iterable[Any]) -> list[Any]:
     from .forms_convert import exact
 
-    return [exact(c) for c in coefficients]
+    try:
+        return [exact(c) for c in coefficients]
+    except TypeError:
+        raise UcritError(f"a polynomial is a formula or a list of its coefficients, got {coefficients!r}") from None
 
 
 def _read(text: str, variable: str, positive: Sequence[str]) -> list[Any]:

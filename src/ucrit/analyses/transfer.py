@@ -17,6 +17,7 @@ from ..core.compiled import direction as direction_of
 from ..core.cramer import check_names
 from ..core.errors import UcritError, near_match
 from ..core.model import Model
+from .handover import HandOver
 
 Array = npt.NDArray[Any]
 
@@ -25,7 +26,7 @@ SAME = 1e-9
 
 
 @dataclass(frozen=True)
-class TransferFunction:
+class TransferFunction(HandOver):
     """Transfer function from one input to one output.
 
     Attributes

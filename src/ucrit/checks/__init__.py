@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from ..analyses.show import resolve
 from ..core.model import Model
 from .report import Check, Report
 from .subject import Subject
@@ -18,13 +19,18 @@ from .suite import run
 __all__ = ["Check", "Report", "check_model"]
 
 
-def check_model(model: type[Model] | Model, seed: int = 0, published: str | os.PathLike[str] | None = None) -> Report:
+def check_model(
+    model: type[Model] | Model | str | os.PathLike[str],
+    seed: int = 0,
+    published: str | os.PathLike[str] | None = None,
+) -> Report:
     """Run every check that applies to a model and report what came out.
 
     Parameters
     ----------
     model
-        A model class, or a vehicle, about whose values random parameters are then drawn.
+        A model class, or a vehicle, about whose values random parameters are then drawn; or the name of one; also
+        a vehicle file or a Python file with a model.
     seed
         Seed of the random parameters and states.
     published
@@ -35,14 +41,19 @@ def check_model(model: type[Model] | Model, seed: int = 0, published: str | os.P
     Report
         One `Check` per check; those that did not apply say why.
 
+    Raises
+    ------
+    UcritError
+        If there is no model or vehicle of that name, or a file cannot be read.
+
     Examples
     --------
-    >>> from ucrit.models.trailer_kinematic import TrailerKinematic
-    >>> report = check_model(TrailerKinematic)
+    >>> report = check_model("trailer-kinematic")
     >>> report.ok
     True
     >>> print(report.checks[1])
     pass  equations: 1 equations with matching units, solved by the basic motion
     """
-    subject = Subject.of(model, seed, None if published is None else Path(published))
+    named, vehicle = resolve(model)
+    subject = Subject.of(named if vehicle is None else vehicle, seed, None if published is None else Path(published))
     return Report(subject.model.model_id(), tuple(run(subject)))

@@ -98,9 +98,9 @@ def _bordered(system: LinearSystem, input: str, output: str) -> list[list[list[A
 
 
 def _lowest_terms(above: Any, below: Any, functions: Mapping[Any, Any]) -> Rational:
-    from .factor import definite_sign, factors
+    from .factor import common_divisor, definite_sign, factors
 
-    common = above.gcd(below) if above else below
+    common = common_divisor(above, below) if above else below
     numerator, denominator = above.exquo(common), below.exquo(common)
     leading = coefficients_in_s(denominator)[-1]
     if definite_sign(leading) == -1 or (definite_sign(leading) is None and leading.LC < 0):

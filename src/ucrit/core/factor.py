@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -15,16 +16,36 @@ def factors(poly: PolyElement) -> tuple[int, list[tuple[PolyElement, int]]]:
     python-flint does it where it is installed (some hundred times faster), SymPy otherwise.
     """
     try:
-        import flint
+        import flint  # noqa: F401
     except ImportError:
         content, found = poly.factor_list()
         return int(content), [(f, int(m)) for f, m in found]
-    ring = poly.ring
-    if not ring.ngens:
+    if not poly.ring.ngens:
         return int(poly.LC), []
-    context = flint.fmpz_mpoly_ctx.get([f"v{i}" for i in range(ring.ngens)], "lex")
-    content, found = context.from_dict({tuple(m): int(c) for m, c in poly.terms()}).factor()
-    return int(content), [(ring.from_dict(_exponents(f)), int(m)) for f, m in found]
+    try:
+        content, found = _flint(poly).factor()
+    except OverflowError:  # it sorts factors by coefficients, and those of a vehicle's numbers exceed a machine word
+        content, found = poly.factor_list()
+        return int(content), [(f, int(m)) for f, m in found]
+    return int(content), [(poly.ring.from_dict(_exponents(f)), int(m)) for f, m in found]
+
+
+def common_divisor(one: PolyElement, other: PolyElement) -> PolyElement:
+    """Return the greatest common divisor of two polynomials of one ring, by python-flint where it is installed."""
+    try:
+        import flint  # noqa: F401
+    except ImportError:
+        return one.gcd(other)
+    if not one.ring.ngens or not one or not other:
+        return one.gcd(other)
+    return one.ring.from_dict(_exponents(_flint(one).gcd(_flint(other))))
+
+
+def _flint(poly: PolyElement) -> Any:
+    import flint
+
+    context = flint.fmpz_mpoly_ctx.get([f"v{i}" for i in range(poly.ring.ngens)], "lex")
+    return context.from_dict({tuple(m): int(c) for m, c in poly.terms()})
 
 
 def _exponents(poly: Any) -> dict[tuple[int, ...], int]:
@@ -58,6 +79,7 @@ def sign_of_power(generator: Any, exponent: int) -> tuple[int | None, bool]:
     return None, False
 
 
+@lru_cache(maxsize=4096)
 def readable(poly: PolyElement) -> Any:
     """Return a polynomial as the shortest expression found by collecting it in one of its parameters.
 

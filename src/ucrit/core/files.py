@@ -16,14 +16,32 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from .errors import UcritError, near_match
 from .model import Model
 from .part import Part
 
 TEXTS = ("name", "source", "note")
-KEYS = ("model", *TEXTS, "parts", "parameters")
+KEYS = ("model", *TEXTS, "controllers", "parts", "parameters")
+
+
+class Find(NamedTuple):
+    """How names in a file are looked up.
+
+    Attributes
+    ----------
+    model
+        Gives the class of a model's name.
+    part
+        Gives the law of a name, of the kind that a slot takes.
+    controlled
+        Gives a model under the control of some controllers.
+    """
+
+    model: Callable[[str], type[Model]]
+    part: Callable[[str, type[Part]], type[Part]]
+    controlled: Callable[[type[Model], tuple[str, ...]], type[Model]]
 
 
 def read_text(path: Path) -> str:
@@ -43,8 +61,7 @@ def read_text(path: Path) -> str:
 def parse_vehicle(
     text: str,
     where: str,
-    find_model: Callable[[str], type[Model]],
-    find_part: Callable[[str, type[Part]], type[Part]],
+    find: Find,
     changes: Mapping[str, Any] | None = None,
     at_speed: Any = None,
 ) -> Model:
@@ -56,10 +73,8 @@ def parse_vehicle(
         The file's content (TOML).
     where
         The file's name, for messages.
-    find_model
-        Gives the model class of a name.
-    find_part
-        Gives the law of a name, of the kind that a slot takes.
+    find
+        Gives models, parts and controllers of a name.
     changes
         Parameter values that replace or complete the file's.
     at_speed
@@ -84,13 +99,20 @@ def parse_vehicle(
     if "model" not in content or not isinstance(parameters, dict):
         raise UcritError(f'{where}: a vehicle file needs model = "..." and a [parameters] table')
     try:
-        model = find_model(content["model"])
-        model = model.fitted(**_laws(model, content.get("parts", {}), find_part))
+        model = find.model(content["model"])
+        model = model.fitted(**_laws(model, content.get("parts", {}), find.part))
+        model = find.controlled(model, _controllers(content.get("controllers", [])))
         vehicle = model(**{**parameters, **(changes or {}), **_speed(model, at_speed)})
     except UcritError as error:
         raise type(error)(f"{where}: {error}") from None
     texts = {key: content[key] for key in TEXTS if key in content}
     return vehicle.with_info(**{"name": Path(where).stem, **texts, "file": where})
+
+
+def _controllers(names: Any) -> tuple[str, ...]:
+    if not isinstance(names, list) or not all(isinstance(name, str) for name in names):
+        raise UcritError(f"controllers must be a list of names in quotes, got {names!r}")
+    return tuple(names)
 
 
 def _laws(model: type[Model], parts: Any, find_part: Callable[[str, type[Part]], type[Part]]) -> dict[str, type[Part]]:
@@ -125,17 +147,19 @@ def write_vehicle(vehicle: Model, model: str | None = None) -> str:
 def vehicle_template(model: type[Model], name: str | None = None, vehicle: Model | None = None) -> str:
     """Return the text of a vehicle file for ``model``; without a vehicle its values are left to fill in."""
     info = vehicle.info if vehicle else None
+    made_of = {**model.ingredients(), **({"model": name} if name else {})}
     lines = [
         f"# {model.title()}",
-        f"model = {_quoted(name or model.model_id())}",
+        f"model = {_quoted(made_of['model'])}",
         f"name = {_quoted(info.name if info and info.name else 'my vehicle')}",
         f"source = {_quoted(info.source if info and info.source else 'where the numbers come from')}",
     ]
     if info and info.note:
         lines.append(f"note = {_quoted(info.note)}")
-    if model.declaration.slots:
-        fitted = {key: slot.law.part_id() for key, slot in model.declaration.slots.items()}
-        lines += ["", "[parts]", *(f"{key} = {_quoted(law)}" for key, law in fitted.items())]
+    if "controllers" in made_of:
+        lines.append(f"controllers = [{', '.join(map(_quoted, made_of['controllers']))}]")
+    if "parts" in made_of:
+        lines += ["", "[parts]", *(f"{key} = {_quoted(law)}" for key, law in made_of["parts"].items())]
     lines += ["", '[parameters]   # a number is in the SI unit shown; a text carries its own: "110 km/h"']
     for key, parameter in model.declaration.parameters.items():
         comment = f"{parameter.meaning} [{parameter.unit}], {parameter.allowed}"

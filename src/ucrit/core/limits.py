@@ -141,9 +141,11 @@ def _leading(a: Any, index: int, sign: int, degree: Fraction) -> Any:
 
 def _primitive(polynomial: CharacteristicPolynomial, coefficients: list[Any]) -> CharacteristicPolynomial:
     """Return a polynomial with what its coefficients share divided out, its leading term positive."""
+    from .factor import common_divisor
+
     common = polynomial.ring.zero
     for a in coefficients:
-        common = common.gcd(a)
+        common = common_divisor(common, a)
     if coefficients[-1].LC * common.LC < 0:
         common = -common
     return type(polynomial)(polynomial.ring, tuple(a.exquo(common) for a in coefficients), polynomial.functions)

@@ -16,6 +16,7 @@ from sympy.polys.rings import PolyElement, PolyRing
 
 from .errors import ModelError
 from .explicit import Explicit, explicit
+from .factor import common_divisor
 from .rings import cleared_row, polynomial_field
 from .trace import Traced, trace
 
@@ -167,7 +168,7 @@ def _collect(
     coefficients = [ring.from_dict(parts.get(k, {})) for k in range(max(parts) + 1)]
     common = ring.zero
     for a in coefficients:
-        common = common.gcd(a)
+        common = common_divisor(common, a)
     if coefficients[-1].LC * common.LC < 0:
         common = -common
     return CharacteristicPolynomial(ring, tuple(a.exquo(common) for a in coefficients), functions)

@@ -10,12 +10,12 @@ from __future__ import annotations
 import inspect
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import cache
 from types import MappingProxyType
 from typing import Any, ClassVar, Self
 
 from .declare import Parameter
 from .errors import ModelError, UcritError, near_match
+from .made import made, reference, resolve
 
 Constant = float | int | str
 
@@ -68,7 +68,7 @@ class Part:
         return hash((type(self), repr(self.__dict__)))
 
     def __reduce__(self) -> Any:
-        return _restore, (*recipe(type(self)), dict(self.__dict__))
+        return _restore, (reference(type(self)), dict(self.__dict__))
 
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(f'{name}={value}' for name, value in self.__dict__.items())})"
@@ -87,7 +87,7 @@ class Part:
     @classmethod
     def of(cls, constants: Mapping[str, Constant]) -> type[Self]:
         """Return the law with these constants: a class of its own, the same one for the same constants."""
-        found: type[Self] = _of(cls.root, tuple(sorted({**cls.constants, **constants}.items())))
+        found: type[Self] = made(_with_constants, cls.root, tuple(sorted({**cls.constants, **constants}.items())))
         return found
 
     @classmethod
@@ -98,25 +98,16 @@ class Part:
         return instance
 
 
-def recipe(law: type[Part]) -> tuple[type[Part], dict[str, Constant]]:
-    """Return what a law is made of: its own class and its constants."""
-    return law.root, dict(law.constants)
+def _with_constants(law: type[Part], constants: tuple[tuple[str, Constant], ...]) -> type[Part]:
+    body = {"constants": MappingProxyType(dict(constants)), "__module__": law.__module__, "__doc__": law.__doc__}
+    found: Any = type(law.__name__, (law,), body)
+    found.root = law
+    return found  # type: ignore[no-any-return]
 
 
-def _make(law: type[Part], constants: tuple[tuple[str, Constant], ...]) -> type[Part]:
-    made: Any = type(
-        law.__name__, (law,), {"constants": MappingProxyType(dict(constants)), "__module__": law.__module__}
-    )
-    made.root = law
-    found: type[Part] = made
-    return found
-
-
-_of: Any = cache(_make)
-
-
-def _restore(law: type[Part], constants: dict[str, Constant], values: dict[str, Any]) -> Part:
-    return (law.of(constants) if constants else law).bound(values)
+def _restore(law: Any, values: dict[str, Any]) -> Part:
+    found: type[Part] = resolve(law)
+    return found.bound(values)
 
 
 @dataclass(frozen=True)

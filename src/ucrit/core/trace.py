@@ -97,7 +97,7 @@ def trace(model: type[Model], direction: int | None = 1, method: str = "") -> Tr
     instance = symbolic_instance(model, symbols)
     q = [tuple(sp.Symbol(v.label(k), real=True) for k in range(v.order + 1)) for v in declared.variables.values()]
     u = tuple(sp.Symbol(name, real=True) for name in declared.inputs)
-    groups = _groups(model, q, u)
+    groups = groups_of(model, q, u)
     residuals, multipliers = _residuals(model, instance, groups, q, method)
     q = [*q, *((m,) for m in multipliers)]
     if len(residuals) != len(q):
@@ -120,7 +120,8 @@ def trace(model: type[Model], direction: int | None = 1, method: str = "") -> Tr
     return traced
 
 
-def _groups(model: type[Model], q: list[tuple[sp.Symbol, ...]], u: tuple[sp.Symbol, ...]) -> dict[str, Names]:
+def groups_of(model: type[Model], q: list[tuple[sp.Symbol, ...]], u: tuple[sp.Symbol, ...]) -> dict[str, Names]:
+    """Return the symbols of a model's variables, rates and inputs, as its methods take them."""
     names = list(model.declaration.variables)
     by_order = [{name: chain[k] for name, chain in zip(names, q, strict=True) if k < len(chain)} for k in range(3)]
     groups = {group: Names(group, values) for group, values in zip(("x", "dx", "ddx"), by_order, strict=True)}
@@ -139,6 +140,8 @@ def _residuals(
         matrices = [sp.Matrix(P) for P in instance.matrices()]  # type: ignore[attr-defined]
         rows = [sp.Matrix([chain[k] if k < len(chain) else 0 for chain in q]) for k in range(len(matrices))]
         return list(sum((P * row for P, row in zip(matrices, rows, strict=True)), sp.zeros(len(q), 1))), []
+    if statement == "closed_loop":
+        return instance.closed_loop(q, groups)  # type: ignore[attr-defined,no-any-return]
     return [sp.sympify(r) for r in as_tuple(call(getattr(instance, statement), groups))], []
 
 

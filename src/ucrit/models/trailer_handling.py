@@ -1,7 +1,6 @@
 """Axes and signs as in the trailer. SI units and radians."""
 
 from ..core import param, slot
-from ..parts.tires import slip_angle
 from ..parts.tires.brush import Brush
 from .trailer import Trailer
 
@@ -13,5 +12,5 @@ class TrailerHandling(Trailer):
     F_z: float = param("N", "vertical load of the axle", above=0)
     tire = slot(Brush, "the axle's tires")
 
-    def side_force(self, x, dx):
-        return self.tire.side_force(self.F_z, slip_angle(*self.axle_velocity(x, dx)))
+    def tire_force(self, alpha):
+        return self.tire.side_force(self.F_z, alpha)

@@ -17,6 +17,8 @@ class WheelsetFlange(Wheelset):
     clearance: float = param("m", "lateral displacement at which a flange touches the rail", above=0)
     k_f: float = param("N/m", "lateral stiffness of a rail against the flange", at_least=0)
 
+    bond_graph = equations_bond_graph = None  # that of the wheelset has other forces
+
     def potential_energy(self, x):
         squeezed = maximum(abs(x.y) - self.clearance, 0)
         return super().potential_energy(x) + self.k_f * squeezed**2 / 2

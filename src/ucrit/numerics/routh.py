@@ -27,6 +27,7 @@ class RouthArray:
     right_half_plane : number of roots with positive real part, with multiplicity; None for symbols
     imaginary_axis : number of roots on the imaginary axis, zeros included, with multiplicity; None for
         symbols
+    variable : how it prints the variable
     """
 
     rows: tuple[Row, ...]
@@ -34,6 +35,7 @@ class RouthArray:
     notes: tuple[str, ...]
     right_half_plane: int | None
     imaginary_axis: int | None
+    variable: str = "s"
 
     @property
     def first_column(self) -> Row:
@@ -48,16 +50,18 @@ class RouthArray:
     def __str__(self) -> str:
         cells = [[_text(x) for x in row] for row in self.rows]
         width = [max(len(row[j]) for row in cells if j < len(row)) for j in range(len(cells[0]))]
-        label = max(len(f"s^{power}") for power in self.powers)
+        labels = [f"{self.variable}^{power}" for power in self.powers]
         lines = [
-            f"{f's^{power}':<{label}} | " + "  ".join(f"{text:>{size}}" for text, size in zip(row, width, strict=False))
-            for power, row in zip(self.powers, cells, strict=True)
+            f"{label:<{max(map(len, labels))}} | "
+            + "  ".join(f"{text:>{size}}" for text, size in zip(row, width, strict=False))
+            for label, row in zip(labels, cells, strict=True)
         ]
         return "\n".join([*lines, *self.notes, *self._verdict()])
 
     def _repr_html_(self) -> str:
+        variable = escape(self.variable)
         rows = "".join(
-            f"<tr><th>s<sup>{power}</sup></th>{''.join(f'<td>{escape(_text(x))}</td>' for x in row)}</tr>"
+            f"<tr><th>{variable}<sup>{power}</sup></th>{''.join(f'<td>{escape(_text(x))}</td>' for x in row)}</tr>"
             for power, row in zip(self.powers, self.rows, strict=True)
         )
         notes = "".join(f"<p>{escape(note)}</p>" for note in (*self.notes, *self._verdict()))
@@ -70,7 +74,7 @@ class RouthArray:
         return [f"roots in the right half plane: {right}, on the imaginary axis: {axis}"]
 
 
-def routh(coefficients: Sequence[Any]) -> RouthArray:
+def routh(coefficients: Sequence[Any], variable: str = "s") -> RouthArray:
     """Routh's array of ``a[0] + a[1] s + ... + a[n] s^n``.
 
     * A row that vanishes is replaced by the derivative of the auxiliary polynomial, the row above it (Routh
@@ -85,6 +89,7 @@ def routh(coefficients: Sequence[Any]) -> RouthArray:
     coefficients : ascending powers; int, float, Fraction or SymPy expressions. Floats are taken as the exact
         numbers they store, so the counts are exact. A symbolic element counts as zero if SymPy's `cancel` or
         `is_zero` says so.
+    variable : how the array and its notes print the variable
 
     Raises
     ------
@@ -109,7 +114,7 @@ def routh(coefficients: Sequence[Any]) -> RouthArray:
     a = [_element(x) for x in coefficients]
     notes: list[str] = []
     while a and _is_zero(a[-1]):
-        notes.append(f"the coefficient of s^{len(a) - 1} is zero and was left out")
+        notes.append(f"the coefficient of {variable}^{len(a) - 1} is zero and was left out")
         a.pop()
     if not a:
         raise ValueError("the polynomial is 0: it needs at least one non-zero coefficient")
@@ -120,11 +125,11 @@ def routh(coefficients: Sequence[Any]) -> RouthArray:
         row = _next_row(rows[-2], rows[-1]) if len(rows) > 1 else tuple(a[-2::-2])
         if all(map(_is_zero, row)) and auxiliary is None:
             auxiliary = len(rows) - 1
-        row, note = _regular(row, rows[-1], power)
+        row, note = _regular(row, rows[-1], power, variable)
         rows.append(row)
         notes += note
     right, axis = _count([row[0] for row in rows], auxiliary)
-    return RouthArray(tuple(rows), tuple(range(degree, -1, -1)), tuple(notes), right, axis)
+    return RouthArray(tuple(rows), tuple(range(degree, -1, -1)), tuple(notes), right, axis, variable)
 
 
 def _next_row(upper: Row, lower: Row) -> Row:
@@ -133,21 +138,21 @@ def _next_row(upper: Row, lower: Row) -> Row:
     return tuple(_cancel(upper[j] - upper[0] * padded[j] / lower[0]) for j in range(1, len(upper)))
 
 
-def _regular(row: Row, above: Row, power: int) -> tuple[Row, list[str]]:
-    """The row of s^power with a first element that is not zero, and what was done to it."""
+def _regular(row: Row, above: Row, power: int, s: str) -> tuple[Row, list[str]]:
+    """The row of one power of s with a first element that is not zero, and what was done to it."""
     zeros = next((j for j, x in enumerate(row) if not _is_zero(x)), len(row))
     if zeros == 0:
         return row, []
     if zeros == len(row):
         slope = tuple((power + 1 - 2 * j) * x for j, x in enumerate(above[: power // 2 + 1]))
-        polynomial = _polynomial_text(above, power + 1)
+        polynomial = _polynomial_text(above, power + 1, s)
         action = f"vanished; replaced by the derivative of the auxiliary polynomial {polynomial}"
-        return slope, [f"row s^{power} {action}"]
+        return slope, [f"row {s}^{power} {action}"]
     shifted = (*row[zeros:], *[Fraction(0)] * zeros)
-    factor = f"1 {'-' if zeros % 2 else '+'} s^{2 * zeros}"
+    factor = f"1 {'-' if zeros % 2 else '+'} {s}^{2 * zeros}"
     action = f"multiplied by {factor}, which is positive on the imaginary axis"
     row = tuple(x + (-1) ** zeros * y for x, y in zip(row, shifted, strict=True))
-    return row, [f"row s^{power} began with {', '.join('0' * zeros)}; {action}"]
+    return row, [f"row {s}^{power} began with {', '.join('0' * zeros)}; {action}"]
 
 
 def _count(column: list[Any], auxiliary: int | None) -> tuple[int | None, int | None]:
@@ -186,14 +191,14 @@ def _text(x: Any) -> str:
     return f"{float(value):.6g}" if -300 < value.adjusted() < 300 else f"{value:.5e}"
 
 
-def _polynomial_text(row: Row, power: int) -> str:
+def _polynomial_text(row: Row, power: int, s: str) -> str:
     """The even or odd polynomial that a row stands for, such as ``2 s^2 + 8``."""
     text = ""
     for j, x in enumerate(row):
         if _is_zero(x):
             continue
         exponent = power - 2 * j
-        variable = "" if exponent == 0 else "s" if exponent == 1 else f"s^{exponent}"
+        variable = "" if exponent == 0 else s if exponent == 1 else f"{s}^{exponent}"
         number = _text(x)
         negative = number.startswith("-") and " " not in number
         number = f"({number})" if " " in number else number.removeprefix("-")

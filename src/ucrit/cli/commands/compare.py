@@ -39,7 +39,8 @@ def command(vehicles: tuple[str, ...], changes: tuple[str, ...], upto: str | Non
       ucrit compare caravan mine.toml --json
 
     Rows of speeds are in m/s, those of parameters in SI units. A mode that does not oscillate is told by its
-    eigenvalue: a positive one grows.
+    eigenvalue: a positive one grows. The static term is the last one of the characteristic polynomial, the
+    first being 1; where it turns negative a vehicle diverges, as a car may that goes faster.
 
     Exit status: 0 compared, stable or not; 2 wrong input.
     """
@@ -81,7 +82,9 @@ def _data(comparison: Comparison, found: list[Analysis]) -> dict[str, Any]:
         {"parameter": name, "unit": unit, "values": list(values)}
         for name, (unit, values) in comparison.differing.items()
     ]
-    return {"schema": 1, "vehicles": [one.to_dict() for one in found], "differing": differing}
+    terms = [subject.static_term for subject in comparison.subjects]
+    vehicles = [one.to_dict() for one in found]
+    return {"schema": 1, "vehicles": vehicles, "static_terms": terms, "differing": differing}
 
 
 def _show(comparison: Comparison, found: list[Analysis]) -> None:

@@ -6,16 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..output import writer
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
-from .sweep import progress_bar
+from ..progress import progress
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from ...analyses.cycles import LimitCycles
 
-TABLES = {".csv": "to_csv", ".nc": "to_netcdf", ".json": "to_json", ".mat": "to_mat"}
-PICTURES = (".png", ".svg", ".pdf")
 ROWS = 12
 """Cycles of a branch that are printed; all of them are written."""
 
@@ -63,15 +60,15 @@ def command(
     from ...analyses.basin import basin
     from ...analyses.cycles import limit_cycles
 
-    write = _writer(out)
+    write = None if out is None else writer(out)
     subject = load_vehicle(vehicle, assignments(changes, 'a=1.9 or "m=2 t"'))
-    with progress_bar("cycles") as progress:
-        found = limit_cycles(subject, along, lower, upper, progress=progress)
+    with progress("cycles") as advance:
+        found = limit_cycles(subject, along, lower, upper, progress=advance)
     value = _value(found, at)
     border = None
     if disturbed is not None:
-        with progress_bar("simulations") as progress:
-            border = basin(subject.with_(**{found.parameter: value}), disturbed, found, progress=progress)
+        with progress("simulations") as advance:
+            border = basin(subject.with_(**{found.parameter: value}), disturbed, found, progress=advance)
     if write is not None:
         write(found)
     _show(found, value, at is not None, None if border is None else str(border), out)
@@ -82,36 +79,6 @@ def _value(found: LimitCycles, at: str | None) -> float:
 
     value = found.vehicle.values[found.parameter] if at is None else to_si(at, found.unit, found.parameter)
     return float(value)
-
-
-def _writer(out: str | None) -> Callable[[Any], None] | None:
-    """Return what writes a result; a file ending that is not known is refused before anything is computed."""
-    from ...core.errors import UcritError
-
-    if out is None:
-        return None
-    ending = out[out.rfind(".") :] if "." in out else ""
-    if ending in PICTURES:
-        return lambda found: _draw(found, out)
-    if ending not in TABLES:
-        raise UcritError(f"the output '{out}' must end in {', '.join((*PICTURES, *TABLES))}")
-    if ending == ".nc":
-        from .sweep import to_netcdf
-
-        return lambda found: to_netcdf(found, out)
-    return lambda found: getattr(found, TABLES[ending])(out)
-
-
-def _draw(found: LimitCycles, path: str) -> None:
-    import io
-
-    from ...analyses.convert import write_whole
-    from ...plots import plot, style
-
-    picture = io.BytesIO()
-    with style.settings():
-        plot(found).savefig(picture, format=path[path.rfind(".") + 1 :], dpi=150)
-    write_whole(path, picture.getvalue())
 
 
 def _show(found: LimitCycles, value: float, asked: bool, border: str | None, out: str | None) -> None:

@@ -1,0 +1,1 @@
+"""Controllers of the catalogue, one file each: `ls` is the table of contents."""
