@@ -104,9 +104,9 @@ class Analysis:
         return f"{self.vehicle.info.name or type(self.vehicle).__name__}: {self.sentence}"
 
     def _repr_html_(self) -> str:
-        from html import escape
+        from . import notebook
 
-        return f"<p><b>{escape(self.vehicle.info.name)}</b>: {escape(self.sentence)}</p>"
+        return notebook.analysis(self)
 
 
 def analyze(

@@ -14,6 +14,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..core.errors import UcritError
+from ..core.html import Rich
 from ..core.model import Model
 from ..core.motion import Motion, motion
 from ..numerics.prony import fit_exponents
@@ -66,7 +67,7 @@ class Finding:
 
 
 @dataclass(frozen=True)
-class Audit:
+class Audit(Rich):
     """What `audit` finds.
 
     Attributes

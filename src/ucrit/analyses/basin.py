@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..core.errors import UcritError, near_match
+from ..core.html import Rich
 from ..core.model import Model
 from ..core.motion import motion
 from .cycle import Cycle
@@ -34,7 +35,7 @@ LARGEST = 8.0
 
 
 @dataclass(frozen=True)
-class Basin:
+class Basin(Rich):
     """The disturbance of one state that parts motions that die out from those that do not.
 
     Attributes

@@ -82,6 +82,11 @@ class Criterion:
     def __str__(self) -> str:
         return f"{self.expression} > 0"
 
+    def _repr_html_(self) -> str:
+        from ..core.html import math_of
+
+        return f"<p>{math_of(self.mathml, '> 0')}</p>"
+
     def _repr_latex_(self) -> str:
         return f"$\\displaystyle {self.latex} > 0$"
 
@@ -117,6 +122,11 @@ class Criteria:
             return f"{self.model}: {word if self.settled else 'unstable'} for all allowed parameters"
         lines = [f"{self.model}: {word} if and only if"]
         return "\n".join([*lines, *(f"    {condition}" for condition in self.conditions)])
+
+    def _repr_html_(self) -> str:
+        from . import notebook
+
+        return notebook.criteria(self)
 
     def _repr_latex_(self) -> str:
         return r"$\displaystyle " + r" \quad\wedge\quad ".join(f"{c.latex} > 0" for c in self.conditions) + "$"

@@ -56,13 +56,10 @@ class Listing:
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        from html import escape
+        from ..core import html
 
-        rows = "".join(
-            f"<tr><td><code>{e.name}</code></td><td>{escape(e.title)}</td><td>{e.model}</td></tr>"
-            for e in (*self.models, *self.vehicles)
-        )
-        return f"<table>{rows}</table>"
+        rows = [(e.name, e.title, e.model) for e in (*self.models, *self.vehicles)]
+        return html.table(rows, ("name", "what it is", "model"))
 
 
 def listing(kind: str | None = None) -> Listing:

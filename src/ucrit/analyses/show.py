@@ -124,17 +124,14 @@ class ModelDescription:
         return "\n".join([*lines, "", *(f"{f} = 0" for f in self.equations)])
 
     def _repr_html_(self) -> str:
-        from html import escape
+        from ..core import html
 
-        rows = "".join(
-            f"<tr><td><code>{p.name}</code></td><td>{escape(p.unit)}</td><td>{escape(p.meaning)}</td>"
-            f"<td>{escape(p.allowed)}</td></tr>"
-            for p in self.parameters
-        )
+        rows = [(p.name, "" if p.unit == "1" else p.unit, p.meaning, p.allowed) for p in self.parameters]
+        table = html.table(rows, ("parameter", "unit", "meaning", "allowed"), self.title)
         equations = "".join(
             f'<p><math display="block"><mrow>{f.mathml}<mo>=</mo><mn>0</mn></mrow></math></p>' for f in self.equations
         )
-        return f"<b>{escape(self.title)}</b><table>{rows}</table>{equations}"
+        return table + equations
 
 
 def show(subject: type[Model] | Model | str | os.PathLike[str]) -> ModelDescription:

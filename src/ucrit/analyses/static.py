@@ -12,13 +12,14 @@ from dataclasses import dataclass
 from ..core.cache import cached
 from ..core.compiled import direction, labels, state_space
 from ..core.errors import UcritError, near_match
+from ..core.html import Rich
 from ..core.model import Model
 from .critical import critical
 from .verdict import verdict
 
 
 @dataclass(frozen=True)
-class StaticStability:
+class StaticStability(Rich):
     """What a vehicle does from rest in a displaced position.
 
     Attributes

@@ -19,6 +19,7 @@ import numpy.typing as npt
 from ..core.cache import cached
 from ..core.codegen import build
 from ..core.errors import UcritError
+from ..core.html import Rich
 from ..core.model import Model
 
 Array = npt.NDArray[Any]
@@ -31,7 +32,7 @@ NEUTRAL = 1e-12
 
 
 @dataclass(frozen=True)
-class SteadyTurn:
+class SteadyTurn(Rich):
     """How a car turns steadily, for small slip and steer angles; array parameters make arrays.
 
     Attributes

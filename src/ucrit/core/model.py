@@ -252,14 +252,12 @@ class Model:
         return f"{type(self).__name__}({values})"
 
     def _repr_html_(self) -> str:
-        from html import escape
+        from . import html
 
-        rows = "".join(
-            f"<tr><td><code>{name}</code></td><td>{_short(self._values[name])}</td>"
-            f"<td>{'' if p.unit == '1' else escape(p.unit)}</td><td>{escape(p.meaning)}</td></tr>"
-            for name, p in type(self).declaration.parameters.items()
-        )
-        return f"<b>{escape(self.info.name or type(self).__name__)}</b><table>{rows}</table>"
+        declared = type(self).declaration.parameters.items()
+        rows = [(name, _short(self._values[name]), "" if p.unit == "1" else p.unit, p.meaning) for name, p in declared]
+        caption = f"{self.info.name or type(self).__name__} ({type(self).model_id()})"
+        return html.table(rows, ("parameter", "value", "unit", "meaning"), caption)
 
 
 def _with_laws(cls: type[Model], laws: tuple[tuple[str, type[Part]], ...]) -> type[Model]:
