@@ -14,6 +14,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.bonds import bonds as bonds
     from .analyses.bonds import power_flow as power_flow
     from .analyses.boundary import boundary as boundary
+    from .analyses.cite import cite as cite
     from .analyses.compare import compare as compare
     from .analyses.convert import to_control as to_control
     from .analyses.convert import to_scipy as to_scipy
@@ -120,6 +121,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "basin": "analyses.basin",
     "cornering_coefficient": "analyses.tire_curves",
     "boundary": "analyses.boundary",
+    "cite": "analyses.cite",
     "compare": "analyses.compare",
     "cycles": ("analyses.cycles", "limit_cycles"),
     "frequency_response": "analyses.response",

@@ -27,6 +27,7 @@ COMMANDS = {
     "bonds": "bonds",
     "tire": "tire",
     "check": "check",
+    "cite": "cite",
     "completion": "completion",
 }
 """Commands in the order of the help, and the modules that hold them."""

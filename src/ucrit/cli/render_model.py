@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
+    from ..analyses.cite import Citations
     from ..analyses.listing import Entry, Listing
     from ..analyses.show import Matrix, ModelDescription
     from ..checks import Report
@@ -43,6 +44,18 @@ def _entries(page: Page, entries: Sequence[Entry], width: int, indent: int = 2) 
     for e in entries:
         lead = " " * indent + f"{e.name:<{width}}  "
         page.line((lead, "cyan"), shorten(e.title, page.width - len(lead)))
+
+
+def show_citations(console: Console, found: Citations) -> None:
+    """Print sources under what rests on them, then the works that they name."""
+    page = Page(console)
+    for of in dict.fromkeys(c.of for c in found):
+        page.line((of[:1].upper() + of[1:], "bold"))
+        for source in (c.source for c in found if c.of == of):
+            page.paragraph(source, indent=2, hanging=2)
+    page.line(("Works", "bold"), ("   --bibtex prints them for a bibliography", "dim"))
+    for work in found.works:
+        page.paragraph(str(work), indent=2, hanging=2)
 
 
 def show_model(console: Console, found: ModelDescription) -> None:
