@@ -27,6 +27,11 @@ check: lint types layers
 bench: $(VENV)/ready
 	$(BIN)/python -m benchmarks
 
+# The pages of docs, the gallery of examples and the reference, as HTML that opens from disk.
+docs: $(VENV)/ready
+	$(BIN)/python docs/site/build.py
+	@echo "Open build/docs/html/index.html in a browser."
+
 clean:
 	rm -rf $(VENV)
 

@@ -155,7 +155,7 @@ def _sources(subject: Any) -> Iterator[tuple[str, str]]:
         found = type(found)
     if isinstance(found, type) and issubclass(found, Model):
         what, pairs = f"model {found.model_id()}", list(_of_model(found))
-    elif isinstance(found, type):
+    elif isinstance(found, type) and issubclass(found, Part):
         what, pairs = f"law {found.part_id()}", list(_of_law(found))
     else:
         what, pairs = f"analysis {found.__name__}", list(_of_analysis(found))

@@ -110,7 +110,7 @@ class SteadyTurn(Rich):
         return _plain(self._over(U) / R)
 
     def yaw_rate_gain(self, speed: Any) -> Any:
-        """Return yaw rate per steer angle [(rad/s)/rad] at speeds [m/s], shape (..., *speed.shape)."""
+        """Return yaw rate per steer angle [(rad/s)/rad] at speeds [m/s], shape ``(..., *speed.shape)``."""
         U = np.asarray(speed, dtype=float)
         with np.errstate(divide="ignore"):
             return _plain(U / self._over(U))
