@@ -28,7 +28,13 @@ ucrit.remedies(caravan)
 # %%
 # A map shows itself by a thumbnail.
 
-ucrit.stability_map(caravan, U=np.linspace(10, 40, 120), c=np.linspace(0, 2e4, 90))
+stable = ucrit.stability_map(caravan, U=np.linspace(10, 40, 120), c=np.linspace(0, 2e4, 90))
+stable
+
+# %%
+# ``ucrit.plot`` draws it in full.
+
+picture = ucrit.plot(stable)
 
 # %%
 # Tables are shown by their first rows; all of them leave for pandas, xarray, MATLAB, CSV and netCDF.

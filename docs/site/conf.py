@@ -15,7 +15,7 @@ author = "The ucrit developers"
 copyright = "the ucrit developers, BSD 3-Clause"
 release = version = ucrit.__version__
 
-extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_gallery.gen_gallery", "mathml"]
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon", "sphinx_gallery.gen_gallery", "pages"]
 myst_heading_anchors = 3
 suppress_warnings = ["ref.python"]  # of several attributes of one name any is shown
 default_role = "py:obj"

@@ -12,6 +12,7 @@ from ucrit.catalogue import PUBLISHED, VEHICLES, find_model, model_names, vehicl
 from ucrit.checks.eigenvalues import NEAR
 from ucrit.checks.published import read_published
 from ucrit.core.compiled import state_space
+from ucrit.plots.labels import unit_text
 from ucrit.report import formulas
 from ucrit.report.derivation import steps
 
@@ -77,7 +78,7 @@ def page(name, vehicles):
             (f"<code>{k}</code>", markup.text(s.meaning), f"<code>{s.law.part_id()}</code>") for k, s in slots.items()
         ]
         parts.append("## Parts\n\n" + markup.table(("slot", "what it is", "law, unless a file names another"), rows))
-    parts += [derivation(described), criteria(described), double_entry(name), of_model(name, vehicles)]
+    parts += [criteria(described), derivation(described), double_entry(name), of_model(name, vehicles)]
     return "\n".join(part for part in parts if part)
 
 
@@ -93,7 +94,7 @@ def parameters(described):
             *markup.symbol(p.name),
             markup.text(p.meaning),
             markup.unit(p.unit),
-            escape(p.allowed),
+            escape(p.allowed.replace(p.unit, unit_text(p.unit)) if p.unit != "1" else p.allowed),
             "" if p.default is None else f"{p.default:.6g}",
         )
         for p in described.parameters
@@ -116,7 +117,10 @@ def criteria(described):
     """Return the conditions for stability."""
     if described.criteria is None:
         return f"## Criteria\n\n{plain(described.why_no_criteria)}"
-    parts = ["## Criteria\n", plain(str(described.criteria).splitlines()[0] + ".")]
+    parts = [
+        "## Criteria\n",
+        plain(str(described.criteria).splitlines()[0] + (":" if described.criteria.conditions else ".")),
+    ]
     for condition in described.criteria:
         if formulas.too_long(condition.expression):
             parts.append(plain(f"{condition.name}: too long to print; `ucrit.criteria` returns it."))
@@ -131,7 +135,7 @@ def published(name):
     if not path.is_file():
         return []
     return [
-        (kind, entry.source, entry.content.get("note", ""), digits(name, entry) if kind == "numbers" else "exactly")
+        (kind, entry.source, entry.content.get("note", ""), digits(name, entry) if kind == "numbers" else "agrees")
         for kind, entries in read_published(path).items()
         for entry in entries
     ]
