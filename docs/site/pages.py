@@ -6,7 +6,7 @@ from sphinx.errors import ExtensionError
 
 
 def refused(self, node):
-    """Refuse LaTeX, which only a script from elsewhere would draw: pages hold MathML, which browsers draw themselves."""
+    """Refuse LaTeX, which only a script would draw: pages hold MathML, which browsers draw themselves."""
     raise ExtensionError(f"write formulas as text or MathML, not as LaTeX: {node.astext()}")
 
 
