@@ -2,8 +2,7 @@
 How a caravan begins to sway
 ============================
 
-A caravan is judged at 100 km/h, its eigenvalues are followed from walking pace to twice that speed, and one remedy is
-tried.
+A caravan is judged at 100 km/h, its eigenvalues are followed over speed, and one remedy is tried.
 """
 
 import ucrit
@@ -18,7 +17,7 @@ found
 before = ucrit.plot(found)
 
 # %%
-# Among the remedies, the one with the smallest change moves the load back over the axle.
+# Among the remedies, the one with the smallest change moves the centre of mass back towards the axle.
 
 (remedy, *_) = found.remedies
 print(remedy)

@@ -32,10 +32,11 @@ from ..core.part import Part
 from .bibliography import SOFTWARE, Work, works, works_in
 from .show import resolve
 
-STATED = re.compile(
-    r"\(([A-Z](?:[^()]|\([^()]*\))*?\b(?:(?:18|19|20)\d\d|SAE(?: paper)? \d{6})\b(?:[^()]|\([^()]*\))*)\)"
-)
-"""A source in brackets: a name first, a year or a paper's number in it, equation numbers in brackets of their own."""
+BRACKETS = re.compile(r"\(([A-Z](?:[^()]|\([^()]*\))*)\)")
+"""What stands in brackets and begins with a name; in it there may be brackets once more."""
+
+DATED = re.compile(r"\b(?:18|19|20)\d\d\b|\bSAE (?:paper )?\d{6}\b")
+"""A year, or a paper's number: that is what makes it a source."""
 
 NONE = "its description names none"
 
@@ -192,13 +193,14 @@ def _known(subject: Any) -> Any:
 
 
 def stated(text: str) -> list[str]:
-    """Return the sources that a description states in brackets, examples left out.
+    """Return the sources that a description states in brackets, or its first sentence if that names a known work.
 
     >>> stated("Caster (Karnopp 2004, eq. (8.5); Somieski 1997) on a road of 2000 m (2010).")
     ['Karnopp 2004, eq. (8.5)', 'Somieski 1997']
     """
     plain = " ".join(re.split(r"\n\s*Examples\n\s*-+\n", text)[0].split())
-    return [part.strip() for whole in STATED.findall(plain) for part in whole.split(";")]
+    found = [part.strip() for whole in BRACKETS.findall(plain) if DATED.search(whole) for part in whole.split(";")]
+    return found or [first for first in re.split(r"(?<=[a-z]\.) (?=[A-Z])", plain)[:1] if works_in(first)]
 
 
 def _of_model(model: type[Model]) -> Iterator[tuple[str, str]]:
