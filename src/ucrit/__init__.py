@@ -72,6 +72,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .plots import animate as animate
     from .plots import plot as plot
     from .report import write_report as write_report
+    from .web.serve import app as app
 
 __version__ = "0.1.0"
 
@@ -141,6 +142,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "animate": "plots",
     "plot": "plots",
     "write_report": "report",
+    "app": "web.serve",
 }
 """Public names, and the module that has each, with its name there where it is another."""
 

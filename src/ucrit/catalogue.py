@@ -137,6 +137,45 @@ def tire(name: str, **parameters: Any) -> Any:
     return find_part(name, kind)(**parameters)
 
 
+def read_vehicle(text: str, where: str, changes: Mapping[str, Any] | None = None) -> Model:
+    """Return the vehicle that the text of a vehicle file describes, reading nothing else from the disk.
+
+    Models, laws and tires of the catalogue only: whoever wrote the text need not be who owns the machine.
+
+    Parameters
+    ----------
+    text
+        Content of a vehicle file (TOML).
+    where
+        Name of the text, for messages.
+    changes
+        Parameter values [SI, or text with a unit] that replace those of the text.
+
+    Raises
+    ------
+    UcritError
+        If the text is wrong, or names a Python file or a tire property file.
+
+    Examples
+    --------
+    >>> read_vehicle('model = "/home/me/mine.py"\\n[parameters]', "pasted text")
+    Traceback (most recent call last):
+    ucrit.core.errors.UcritError: pasted text: '/home/me/mine.py' is a file; name a model of the catalogue here
+    """
+
+    def model(name: str) -> type[Model]:
+        if ".py" in name:
+            raise UcritError(f"'{name}' is a file; name a model of the catalogue here")
+        return find_model(name)
+
+    def part(name: str, kind: type[Part]) -> type[Part]:
+        if ".tir" in name.lower():
+            raise UcritError(f"'{name}' is a file; name a law or a tire of the catalogue here")
+        return find_part(name, kind)
+
+    return parse_vehicle(text, where, Find(model, part, controlled), changes)
+
+
 def _laws(kind: type[Part]) -> dict[str, type[Part]]:
     """Find the laws of a kind: the module of its base, and the modules beside it in its package."""
     package = importlib.import_module(kind.__module__.rpartition(".")[0])
