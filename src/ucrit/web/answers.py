@@ -15,7 +15,7 @@ from ..analyses.locus import Locus, locus
 from ..analyses.remedies import Remedy
 from ..analyses.stability_map import stability_map
 from ..core.errors import UcritError
-from ..plots.branches import at, marks, upper, view
+from ..plots.branches import marks, upper, view
 from ..plots.labels import percent
 from ..report import choices, formulas, tables
 from .ranges import drawn_range, slider_range
@@ -130,35 +130,10 @@ def _curves(found: Analysis, body: Mapping[str, Any]) -> Answer:
                 for b in branches
             ],
             "box": view(branches, path.values, marked),
-            "ticks": _ticks(path, branches),
         },
         "critical": _critical(edges, path),
         "stable": [[max(a, path.values[0]), min(b, path.values[-1])] for a, b in _inside(edges, path)],
     }
-
-
-def _ticks(path: Locus, branches: Any) -> list[Answer]:
-    """Return where round values of the parameter lie on the branches."""
-    step = tick_step(path.values[-1] - path.values[0])
-    first = math.ceil(path.values[0] / step)
-    values = [k * step for k in range(first, math.floor(path.values[-1] / step) + 1) if k]
-    found = []
-    for branch in branches:
-        for value in values:
-            p = at(branch, path.values, value)
-            if not np.isnan(p):
-                found.append({"index": branch.index, "value": value, "re": p.real, "im": p.imag})
-    return found
-
-
-def tick_step(span: float) -> float:
-    """Return a round step that divides a span into about six.
-
-    >>> tick_step(50), tick_step(0.7)
-    (10.0, 0.1)
-    """
-    power = 10.0 ** math.floor(math.log10(span / 6))
-    return float(next(step for step in (1, 2, 5, 10) if step * power >= span / 7) * power)
 
 
 def _critical(edges: CriticalValues, path: Locus) -> list[Answer]:
@@ -222,5 +197,3 @@ def plane(vehicle: Model, body: Mapping[str, Any]) -> Answer:
 def _spread(vehicle: Model, name: str, given: Any, count: int) -> Any:
     low, high = drawn_range(vehicle, name, *ends(given, f"the range of {name}"))
     return np.linspace(low, high, count)
-
-

@@ -77,5 +77,5 @@ def round_up(value: float) -> float:
     if not value > 0:
         return 1.0
     power = 10.0 ** math.floor(math.log10(value))
-    return float(next(step for step in (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 20) if step * power >= value * (1 - 1e-12))
-                 * power)
+    steps = (1, 1.2, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 20)
+    return float(f"{next(step for step in steps if step * power >= value * (1 - 1e-12)) * power:.6g}")

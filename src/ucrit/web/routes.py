@@ -87,7 +87,9 @@ def application(host: str = "127.0.0.1") -> Guard:
         Route("/api/{name}", ask, methods=["POST"]),
     ]
     errors: Any = {404: _not_found, 405: _not_found}
-    return Guard(Starlette(routes=routes, exception_handlers=errors), host)
+    pages = Starlette(routes=routes, exception_handlers=errors)
+    pages.router.redirect_slashes = False
+    return Guard(pages, host)
 
 
 async def _not_found(request: Request, error: Exception) -> Response:

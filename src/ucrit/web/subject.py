@@ -37,7 +37,7 @@ def read_subject(body: Mapping[str, Any]) -> Model:
     Parameters
     ----------
     body
-        With ``vehicle``, a name in the catalogue, or ``toml``, the text of a vehicle file; and maybe ``values``, numbers
+        With ``vehicle``, a name in the catalogue, or ``toml``, the text of a vehicle file; maybe ``values``, numbers
         [SI] or texts with a unit by the parameters' names.
     """
     name, text = body.get("vehicle"), body.get("toml")
@@ -71,8 +71,9 @@ def parameter(vehicle: Model, name: Any) -> str:
     """Return the name of a parameter; raise `UcritError` for one that the vehicle does not have."""
     known = type(vehicle).declaration.parameters
     if not isinstance(name, str) or name not in known:
-        raise UcritError(f"{type(vehicle).model_id()}: there is no parameter '{str(name)[:100]}'"
-                         f"{near_match(str(name)[:100], known)}")
+        raise UcritError(
+            f"{type(vehicle).model_id()}: there is no parameter '{str(name)[:100]}'{near_match(str(name)[:100], known)}"
+        )
     return name
 
 

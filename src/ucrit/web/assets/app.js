@@ -218,7 +218,7 @@ function build() {
   document.title = `${about.name} – ucrit explorer`;
   $("vehicle").value = s.subject.vehicle || "";
   $("units").value = s.units;
-  $("about").textContent = `${about.title} ${about.source ? `Numbers: ${about.source}.` : ""} ${about.note}`;
+  $("about").textContent = [about.title, about.source && `Numbers: ${about.source}`, about.note].filter(Boolean).map(t => t.replace(/\.?\s*$/, ".")).join(" ");
   $("derivation").innerHTML = "";
   delete $("derivation").dataset.key;
   $("remedies").textContent = "";

@@ -1,5 +1,5 @@
 // What the plots show of an answer. Values come in SI and are converted to the units of the page here.
-import { quantity, read, shownUnit } from "./units.js";
+import { quantity, read, roundStep, shownUnit } from "./units.js";
 
 const NONE = { parameter: "", branches: [] };
 const HERTZ = 1 / (2 * Math.PI);
@@ -13,7 +13,7 @@ export function steady(box, before) {
 
 function axisLabel(about, name, system) {
   const { text } = shownUnit(about.unit, system);
-  return `${about.meaning} ${name}${text ? ` [${text}]` : ""}`;
+  return `${about.meaning.length < 36 ? about.meaning + " " : ""}${name}${text ? ` [${text}]` : ""}`;
 }
 
 export function locusPlot(answer, about, system, box, pinned) {
@@ -24,14 +24,26 @@ export function locusPlot(answer, about, system, box, pinned) {
     tip: i => `${b.name}: ${read(b.re[i])} ${b.im[i] ? `± ${read(b.im[i])} i ` : ""}1/s at ${path.parameter} = ${show(path.values[i])}`,
   }));
   const old = (pinned?.locus || NONE).branches.map(b => ({ x: b.re, y: b.im, name: "pinned" }));
-  const dots = path.ticks.map(t => ({ x: t.re, y: t.im, name: `dot b${t.index % 8}`, text: read(t.value * shownUnit(about.unit, system).factor, 3) }));
+  const dots = path.branches.flatMap(b => roundPlaces(path, b, shownUnit(about.unit, system).factor));
   return {
     x: { range: [left, right], label: "real part [1/s]" }, y: { range: [-0.04 * top, top], label: "imaginary part [rad/s]" }, cross: true,
     bands: [{ x: [0, Infinity], name: "unstable" }],
     lines: [...old, ...lines],
-    marks: [...dots, ...crossings(answer, show), ...diamonds(answer.analysis.modes, "design"), ...diamonds(pinned?.analysis.modes || [], "design old")],
+    marks: [...crossings(answer, show), ...diamonds(answer.analysis.modes, "design"), ...diamonds(pinned?.analysis.modes || [], "design old"), ...dots],
     told: answer.analysis.modes.map(m => `${m.name} at ${read(m.re)}${m.im ? ` plus or minus ${read(m.im)} i` : ""}`).join("; ") + ".",
   };
+}
+
+// Where round values of the parameter, as it is shown, lie on a branch.
+function roundPlaces(path, branch, factor) {
+  const shown = path.values.map(v => v * factor), step = roundStep((shown.at(-1) - shown[0]) / 5), found = [];
+  let k = Math.ceil(shown[0] / step);
+  for (let i = 1; i < shown.length; i++) for (; k * step <= shown[i]; k++) {
+    if (k === 0 || branch.re[i - 1] === null || branch.re[i] === null) continue;
+    const part = (k * step - shown[i - 1]) / (shown[i] - shown[i - 1] || 1), between = list => list[i - 1] + part * (list[i] - list[i - 1]);
+    found.push({ x: between(branch.re), y: between(branch.im), name: `dot b${branch.index % 8}`, text: read(k * step, 3), small: true });
+  }
+  return found;
 }
 
 const diamonds = (modes, name) => modes.map(m => ({ x: m.re, y: m.im, name }));
@@ -71,6 +83,7 @@ export function frequencyPlot(answer, about, system, pinned) {
   const value = b => b.im.map((im, i) => im > 0 || b.im[i - 1] > 0 || b.im[i + 1] > 0 ? im * HERTZ : null);
   const frame = against(answer, about, system, pinned, value, (y, b) => `${b.name}: ${read(y)} Hz`);
   const late = frame.lines.filter(l => l.tip).flatMap(l => l.y.filter((y, i) => y !== null && i > 0.1 * l.y.length));
+  frame.rules.forEach(rule => { delete rule.text; });
   frame.y = { range: [0, 1.12 * Math.max(...late, 1e-6)], label: "frequency [Hz]" };
   return frame;
 }

@@ -69,7 +69,7 @@ export class Panel {
       }
       if (name !== moving || document.activeElement !== row.slider) row.slider.value = Math.round(value * row.unit.factor / row.step);
       row.slider.setAttribute("aria-valuetext", quantity(value, row.about.unit, this.system, 6));
-      row.written = plain(value * row.unit.factor);
+      row.written = plain(value * row.unit.factor, 9);
       row.field.value = row.written;
       row.undo.hidden = value === row.about.value;
       row.element.classList.toggle("moved", value !== row.about.value);

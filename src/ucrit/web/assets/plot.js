@@ -1,7 +1,7 @@
 // Plots as SVG: lines, bands, marks; the point nearest to the pointer or the keyboard's cursor is read out; zoom.
 import { read, roundStep } from "./units.js";
 
-const MARGIN = { left: 56, right: 12, top: 10, bottom: 40 };
+const MARGIN = { left: 62, right: 12, top: 10, bottom: 40 };
 const NEAR = 40; // pixels from the pointer within which a point is read out
 let count = 0;
 
@@ -60,8 +60,7 @@ export class Plot {
       `<g clip-path="url(#${this.clip})">${(c.bands || []).map(b => this.band(b, bottom)).join("")}</g>` +
       this.axes(c, right, bottom) +
       `<g clip-path="url(#${this.clip})">${(c.lines || []).map(l => this.line(l)).join("")}${(c.rules || []).map(r => this.rule(r, bottom)).join("")}</g>` +
-      (c.rules || []).map(r => this.ruleText(r)).join("") +
-      (c.marks || []).map(m => this.mark(m)).join("") + `<g class="cursor"></g><rect class="zoomed" hidden="" />`;
+      (c.rules || []).map(r => this.ruleText(r)).join("") + this.marks(c.marks || []) + `<g class="cursor"></g><rect class="zoomed" hidden="" />`;
     if (this.cursor) this.point(this.cursor.line, this.cursor.index);
   }
 
@@ -119,14 +118,31 @@ export class Plot {
     return `<text class="note" x="${p + (late ? -5 : 5)}" y="${MARGIN.top + 14 + 16 * row}" text-anchor="${late ? "end" : "start"}">${escape(text)}</text>`;
   }
 
-  mark({ x, y, name, text }) {
-    if (x < this.x[0] || x > this.x[1] || y < this.y[0] || y > this.y[1]) return "";
-    const p = this.px(x), q = this.py(y);
-    const shape = name.startsWith("design") ? `<path class="${name}" d="M${p} ${q - 6}l6 6l-6 6l-6 -6z"/>`
-      : `<circle class="${name}" cx="${p}" cy="${q}" r="${name.startsWith("ring") ? 6 : 2.8}"/>`;
-    const late = p > 0.8 * this.width;
-    const words = text ? `<text class="note ${name}-text" x="${p + (late ? -9 : 9)}" y="${q - 8 < MARGIN.top + 10 ? q + 18 : q - 8}" text-anchor="${late ? "end" : "start"}">${escape(text)}</text>` : "";
-    return shape + words;
+  // Marks, and the words of those that find room; the first in the list choose first.
+  marks(list) {
+    const taken = [], shapes = [], words = [];
+    for (const { x, y, name, text, small } of list) {
+      if (x < this.x[0] || x > this.x[1] || y < this.y[0] || y > this.y[1]) continue;
+      const p = this.px(x), q = this.py(y), r = name.startsWith("dot") ? 2.8 : 6;
+      shapes.push(name.startsWith("design") ? `<path class="${name}" d="M${p} ${q - r}l6 6l-6 6l-6 -6z"/>` : `<circle class="${name}" cx="${p}" cy="${q}" r="${r}"/>`);
+      taken.push([p - r, q - r, p + r, q + r]);
+      if (text) words.push({ p, q, r, text, small });
+    }
+    const labels = words.map(w => this.words(w, taken));
+    return shapes.reverse().join("") + labels.join("");
+  }
+
+  words({ p, q, r, text, small }, taken) {
+    const size = small ? 10.5 : 12, wide = 0.62 * size * text.length;
+    for (const [dx, dy] of [[r + 3, -r - 1], [r + 3, r + 8], [-r - 3 - wide, -r - 1], [-r - 3 - wide, r + 8], [-wide / 2, -r - 4], [-wide / 2, r + size]]) {
+      const box = [p + dx, q + dy - size, p + dx + wide, q + dy];
+      const free = box[0] > MARGIN.left && box[2] < this.width && box[1] > 0 && box[3] < this.height - MARGIN.bottom
+        && taken.every(t => box[2] < t[0] || box[0] > t[2] || box[3] < t[1] || box[1] > t[3]);
+      if (!free) continue;
+      taken.push(box);
+      return `<text class="note${small ? " small" : ""}" x="${box[0]}" y="${box[3]}">${escape(text)}</text>`;
+    }
+    return "";
   }
 
   listen() {
