@@ -114,7 +114,7 @@ def _curves(found: Analysis, body: Mapping[str, Any]) -> Answer:
         path = locus(vehicle, name, *drawn_range(vehicle, name, low, high), points=POINTS)
         branches = upper(path)
     except UcritError as error:
-        return {"locus": None, "why": str(error)}
+        return {"locus": None, "why": str(error), "critical": [], "stable": []}
     if found.critical is not None and name == found.critical.parameter:
         edges = found.critical
     else:
