@@ -8,14 +8,14 @@ from __future__ import annotations
 
 import sys
 
-from benchmarks import kernels, startup
+from benchmarks import explorer, kernels, startup
 from benchmarks.timing import Row
 
 
 def main() -> int:
     """Measure, print a table, and return 0 if every limit is kept."""
     rows: list[Row] = []
-    for measure in (kernels.bandwidth, kernels.speeds, kernels.plane, startup.processes):
+    for measure in (kernels.bandwidth, kernels.speeds, kernels.plane, startup.processes, explorer.latency):
         found = measure()
         rows += found
         for row in found:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import http.client
 import importlib.util
 import json
-import socket
 import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -15,6 +14,7 @@ import pytest
 import uvicorn
 
 from ucrit.web.routes import application
+from ucrit.web.serve import listen
 
 TOOL = Path(__file__).parents[2] / "tools" / "browser.py"
 
@@ -34,7 +34,7 @@ class Answer(NamedTuple):
 @pytest.fixture(scope="session")
 def port() -> Iterator[int]:
     """Port of a server that runs in a thread."""
-    listening = socket.create_server(("127.0.0.1", 0))
+    listening = listen("127.0.0.1", 0)
     config = uvicorn.Config(application(), log_level="error", access_log=False, server_header=False)
     server = uvicorn.Server(config)
     thread = threading.Thread(target=server.run, kwargs={"sockets": [listening]}, daemon=True)

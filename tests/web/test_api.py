@@ -39,7 +39,7 @@ def test_the_numbers_are_those_of_python(name: str) -> None:
     if told.get("locus") is None:
         assert all(mode["re"] == mode["im"] == 0 for mode in found["modes"])
         return
-    path = ucrit.locus(vehicle, parameter, *told_range(told), points=answers.POINTS)
+    path = ucrit.locus(vehicle, parameter, *told_range(told), points=answers.POINTS, depth=answers.DEPTH)
     assert told["locus"]["values"] == path.values.tolist()
     columns = [plain(column) for column in path.branches.real.T.tolist()]
     assert all(any(same(b["re"], column) for column in columns) for b in told["locus"]["branches"])

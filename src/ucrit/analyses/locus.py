@@ -83,6 +83,7 @@ def locus(
     lower: float | None = None,
     upper: float | None = None,
     points: int = 400,
+    depth: int = 8,
 ) -> Locus:
     """Follow every eigenvalue of a vehicle along one parameter.
 
@@ -97,6 +98,8 @@ def locus(
         larger (critical values beyond ten times the present one aside), and starts at a hundredth of that.
     points
         Even steps to begin with; where eigenvalues move fast some are halved, up to six times.
+    depth
+        Times that a step is halved in which it is in doubt which eigenvalue goes where. Fewer are faster.
 
     Returns
     -------
@@ -121,6 +124,8 @@ def locus(
         raise UcritError(f"a root locus is that of one vehicle: give one value each for {', '.join(vehicle.dims)}")
     if isinstance(points, bool) or not isinstance(points, int) or points < 2:
         raise UcritError(f"a root locus needs 2 points or more, got {points!r}")
+    if isinstance(depth, bool) or not isinstance(depth, int) or not 0 <= depth <= 50:
+        raise UcritError(f"depth must be a whole number from 0 to 50, got {depth!r}")
     lo, hi = _range(vehicle, name, lower, upper)
     now = float(vehicle.values[name])
     reference = min(max(now, lo), hi)
@@ -129,7 +134,7 @@ def locus(
     def family(values: Array) -> tuple[Array, Array]:
         return eigensystem(vehicle.with_(**{name: values}))
 
-    tracked = track_adaptive(family, grid)
+    tracked = track_adaptive(family, grid, max_depth=depth)
     here = int(np.argmin(np.abs(grid - reference)))
     branches = tracked.branches[:, np.argsort(tracked.permutation[here])]
     named = modes(vehicle.with_(**{name: reference})).names

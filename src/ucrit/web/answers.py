@@ -29,6 +29,9 @@ if TYPE_CHECKING:
 POINTS = 60
 """Even steps of a root locus on the page; it is refined where eigenvalues move fast."""
 
+DEPTH = 3
+"""Times that steps in doubt are halved, so that the picture can follow a slider."""
+
 ACROSS, UP = 140, 100
 """Points of the stability map."""
 
@@ -111,7 +114,7 @@ def _curves(found: Analysis, body: Mapping[str, Any]) -> Answer:
     name = parameter(vehicle, body.get("along") or type(vehicle).declaration.speed)
     low, high = ends(body["range"], f"the range of {name}") if body.get("range") else slider_range(found, name)
     try:
-        path = locus(vehicle, name, *drawn_range(vehicle, name, low, high), points=POINTS)
+        path = locus(vehicle, name, *drawn_range(vehicle, name, low, high), points=POINTS, depth=DEPTH)
         branches = upper(path)
     except UcritError as error:
         return {"locus": None, "why": str(error), "critical": [], "stable": []}

@@ -131,7 +131,10 @@ function draw() {
 }
 
 function drawMap() {
-  if (map && s.values) plots.map.set(mapPlot(map, s.values, s.parameters, s.units, s.pin?.values));
+  const [x, y] = [map?.x.name, map?.y.name], key = map && JSON.stringify([s.values[x], s.values[y], s.pin?.values[x], s.pin?.values[y], s.units]);
+  if (!map || (plots.map.content && map.drawn === key)) return;
+  map.drawn = key;
+  plots.map.set(mapPlot(map, s.values, s.parameters, s.units, s.pin?.values));
 }
 
 function legend(answer, pinned) {
@@ -139,6 +142,9 @@ function legend(answer, pinned) {
   const html = [...named].map(([index]) => `<li><svg viewBox="0 0 30 10" aria-hidden="true"><path class="line ${branchClass(index)}" d="M0 5H30"/></svg> <span></span></li>`);
   if (pinned) html.push('<li><svg viewBox="0 0 30 10" aria-hidden="true"><path class="line pinned" d="M0 5H30"/></svg> pinned</li>');
   if (named.size) html.push('<li><svg viewBox="0 0 30 10" aria-hidden="true"><path class="design" d="M15 0l5 5l-5 5l-5 -5z"/></svg> the vehicle</li>');
+  const key = html.join("") + [...named.values()];
+  if ($("legend").dataset.key === key) return;
+  $("legend").dataset.key = key;
   $("legend").innerHTML = html.join("");
   $("legend").querySelectorAll("span").forEach((span, i) => { span.textContent = [...named.values()][i]; });
 }

@@ -27,6 +27,7 @@ export function locusPlot(answer, about, system, box, pinned) {
   const dots = path.branches.flatMap(b => roundPlaces(path, b, shownUnit(about.unit, system).factor));
   return {
     x: { range: [left, right], label: "real part [1/s]" }, y: { range: [-0.04 * top, top], label: "imaginary part [rad/s]" }, cross: true,
+    flat: !path.branches.some(b => b.im.some(im => im > 0)),
     bands: [{ x: [0, Infinity], name: "unstable" }],
     lines: [...old, ...lines],
     marks: [...crossings(answer, show), ...diamonds(answer.analysis.modes, "design"), ...diamonds(pinned?.analysis.modes || [], "design old"), ...dots],

@@ -3,6 +3,7 @@ import { read, roundStep } from "./units.js";
 
 const MARGIN = { left: 62, right: 12, top: 10, bottom: 40 };
 const NEAR = 40; // pixels from the pointer within which a point is read out
+const narrow = matchMedia("(max-width: 60rem)");
 let count = 0;
 
 export const escape = text => String(text).replace(/[&<>"]/g, c => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;" }[c]));
@@ -21,7 +22,11 @@ export class Plot {
     closer.addEventListener("click", () => this.scale(1 / 1.5));
     farther.addEventListener("click", () => this.scale(1.5));
     all.addEventListener("click", () => this.all());
-    new ResizeObserver(() => { if (this.width !== this.host.clientWidth) this.draw(); }).observe(host);
+    this.width = host.clientWidth;
+    new ResizeObserver(entries => { // reading the width at each drawing would make the browser lay out the page each time
+      const width = Math.round(entries.at(-1).contentRect.width);
+      if (width !== this.width) { this.width = width; this.draw(); }
+    }).observe(host);
     this.listen();
   }
 
@@ -39,11 +44,11 @@ export class Plot {
   }
 
   draw() {
-    if (!this.content || !this.host.clientWidth) return;
-    this.width = this.host.clientWidth;
-    const compact = matchMedia("(max-width: 60rem)").matches ? Math.min(this.ratio, 0.62) : this.ratio;
+    if (!this.content || !this.width) return;
+    const compact = narrow.matches ? Math.min(this.ratio, 0.62) : this.ratio;
     this.height = Math.round(Math.max(170, Math.min(this.width * compact, 460)));
     const c = this.content;
+    if (c.flat) this.height = Math.round(Math.max(150, this.height * 0.6));
     this.x = this.zoom?.x || c.x.range;
     this.y = this.zoom?.y || c.y.range;
     const right = this.width - MARGIN.right, bottom = this.height - MARGIN.bottom;

@@ -53,7 +53,7 @@ export function remedyList(host, found, system, apply) {
 
 export function comparison(host, pinned, answer, parameters, system) {
   const table = document.createElement("table");
-  table.innerHTML = '<thead><tr><th scope="col"></th><th scope="col">pinned</th><th scope="col">now</th></tr></thead><tbody></tbody>';
+  table.innerHTML = '<thead><tr><th scope="col">what</th><th scope="col">pinned</th><th scope="col">now</th></tr></thead><tbody></tbody>';
   const add = (title, before, after) => {
     const row = table.tBodies[0].insertRow(), head = document.createElement("th");
     head.scope = "row";
