@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import math
 import threading
+import time
 from typing import Any
 
 import numpy as np
@@ -17,7 +18,7 @@ from ucrit import UcritError, load
 from ucrit.analyses.listing import template
 from ucrit.catalogue import vehicle_names
 from ucrit.parts.tires.linear import Linear
-from ucrit.web import answers, downloads, motions
+from ucrit.web import answers, downloads, motions, routes
 from ucrit.web.subject import read_json, read_subject
 
 CARAVAN = {"vehicle": "caravan"}
@@ -141,6 +142,36 @@ def test_visitors_do_not_disturb_one_another(ask: Any) -> None:
     assert told == alone
 
 
+def test_what_takes_too_long_or_breaks_is_told_in_a_sentence(
+    ask: Any, monkeypatch: pytest.MonkeyPatch, capsys: Any
+) -> None:
+    monkeypatch.setattr(routes, "TIME_LIMIT", 0.2)
+    monkeypatch.setitem(routes.SLOW, "remedies", lambda *_: time.sleep(0.6))
+    answer = ask("/api/remedies", CARAVAN)
+    assert answer.status == 503
+    assert "takes longer than a page can wait" in answer.json()["error"]
+    monkeypatch.setitem(routes.SLOW, "remedies", lambda *_: [][1])
+    answer = ask("/api/remedies", CARAVAN)
+    assert answer.status == 500
+    assert b"Traceback" not in answer.content
+    assert "IndexError" in capsys.readouterr().err
+
+
+def test_a_motion_that_goes_on_for_too_long_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(motions, "PATIENCE", 0.0)
+    with pytest.raises(UcritError, match="takes longer than a page can wait"):
+        motions.motion(load("shimmying-caster"), {"disturb": "x"})
+
+
+@settings(max_examples=80)
+@given(st.data(), st.sampled_from(["caravan", "wheelset", "shimmying-caster", "motorcycle-lean"]))
+def test_extreme_values_get_an_answer_or_a_sentence(ask: Any, data: Any, name: str) -> None:
+    names = st.sampled_from(list(load(name).values))
+    values = data.draw(st.dictionaries(names, st.floats(1e-300, 1e300) | st.floats(1e-6, 1e6), max_size=3))
+    answer = ask("/api/state", {"vehicle": name, "values": values})
+    assert answer.status in (200, 400)
+
+
 BAD = {
     "no subject": ({}, "names a vehicle"),
     "two subjects": ({"vehicle": "caravan", "toml": "x"}, "names a vehicle"),
@@ -166,6 +197,7 @@ BAD = {
     "an essay": ({"vehicle": "caravan", "values": {"m": "1" * 100}}, "at most 64 characters"),
     "no values": ({"vehicle": "caravan", "values": 7}, "values must be"),
     "a range": ({"vehicle": "caravan", "along": "U", "range": [5, 4]}, "two rising numbers"),
+    "half a character": ({"vehicle": "\ud800"}, "there is no vehicle"),
     "half a range": ({"vehicle": "caravan", "along": "U", "range": [5]}, "must be two numbers"),
     "along nothing": ({"vehicle": "caravan", "along": "Q"}, "there is no parameter 'Q'"),
 }

@@ -140,6 +140,16 @@ def test_a_vehicle_of_ones_own_is_in_the_link(started: list[str]) -> None:
     assert "m+%3D+1300.0" in started[0]
 
 
+def test_a_model_of_ones_own_is_refused(started: list[str], tmp_path: Path) -> None:
+    (tmp_path / "mine.py").write_text(
+        "import ucrit\nclass Mine(ucrit.Model):\n    m: float = ucrit.param('kg', 'mass')\n"
+        "    y = ucrit.coordinate('m', 'place')\n    def equations(self, ddx):\n        return self.m * ddx.y\n"
+    )
+    (tmp_path / "mine.toml").write_text('model = "mine.py"\n[parameters]\nm = 1\n')
+    with pytest.raises(UcritError, match="'Mine' is not made of these alone"):
+        app(tmp_path / "mine.toml", port=0, browser=False, tell=started.append)
+
+
 def test_a_port_that_is_taken(started: list[str]) -> None:
     with socket.create_server(("127.0.0.1", 0)) as other:
         taken = other.getsockname()[1]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import time
 from typing import TYPE_CHECKING, Any
 
 from ..analyses.modes import Mode, modes
@@ -13,7 +14,7 @@ from ..plots.animation_page import film
 from ..plots.camera import caption, frame_times
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from ..core.model import Model
 
@@ -24,6 +25,9 @@ SIZES = {"rad": math.radians(2), "rad/s": 0.1, "m": 0.05, "m/s": 0.5}
 """A disturbance that can be seen, by the unit of the state."""
 
 TOLERANCE = 1e-6
+
+PATIENCE = 15.0
+"""Seconds of computing after which a motion is given up."""
 
 
 def motion(vehicle: Model, body: Mapping[str, Any]) -> dict[str, Any]:
@@ -55,12 +59,26 @@ def disturbed(vehicle: Model, name: Any) -> dict[str, Any]:
     unit = variables[base].state_unit(name.count("'"))
     size = SIZES.get(unit, 0.1)
     last = duration(modes(vehicle).list())
-    run = simulate(vehicle, last, {name: size}, tolerance=TOLERANCE)
+    run = simulate(vehicle, last, {name: size}, tolerance=TOLERANCE, progress=_patience())
     end = float(run.times[-1])
     shown = scene(run, frame_times(0.0, end))
     ended = f", which ends at {end:.3g} s: {run.ended}" if run.ended else ""
     told = f"non-linear motion after {name} = {size:.3g} {unit}{ended}"
     return {"film": film(shown), "caption": f"{caption(shown)}: {told}"}
+
+
+def _patience() -> Callable[[float, float], None]:
+    """Return what gives a simulation up that goes on for too long: a thread cannot be stopped from outside."""
+    start = time.monotonic()
+
+    def check(reached: float, last: float) -> None:
+        if time.monotonic() - start > PATIENCE:
+            raise UcritError(
+                f"the motion takes longer than a page can wait: {reached:.3g} s of {last:.3g} s were followed in time; "
+                "ucrit simulate has no such limit"
+            )
+
+    return check
 
 
 def duration(found: list[Mode]) -> float:

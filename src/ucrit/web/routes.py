@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import threading
 import traceback
@@ -11,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import anyio
+import numpy as np
 from anyio import CapacityLimiter, to_thread
 from starlette.applications import Starlette
 from starlette.responses import Response
@@ -55,7 +57,7 @@ TIME_LIMIT = 60.0
 BODY_TIME = 10.0
 """Seconds in which the body of a request must have arrived."""
 
-_deriving = threading.RLock()
+_deriving = threading.Lock()
 _derived: set[tuple[str, type[Model]]] = set()
 
 
@@ -124,19 +126,37 @@ def _respond(name: str, work: Callable[[Model, Mapping[str, Any]], Any], content
     """Read a request, work on it and make the response, all in the thread."""
     body = read_json(content)
     vehicle = read_subject(body)
-    key = (name, type(vehicle))
-    if key in _derived:
-        found = work(vehicle, body)
-    else:
-        with _deriving:  # the first time formulas are derived; one derivation at a time, they share much
+    with np.errstate(all="ignore"):  # what comes of overflows is seen below, where it cannot be written as JSON
+        _derive(name, work, vehicle)
+        try:
             found = work(vehicle, body)
+            if not isinstance(found, File):
+                return _json(found)
+        except (ArithmeticError, np.linalg.LinAlgError, NotFiniteError):
+            raise UcritError("these values lead to numbers too large or too small to compute with") from None
+    disposition = {"content-disposition": f'attachment; filename="{found.name}"'}
+    return Response(found.content, media_type=found.media, headers=disposition)
+
+
+def _derive(name: str, work: Callable[[Model, Mapping[str, Any]], Any], vehicle: Model) -> None:
+    """Derive the formulas that a model's answers need when it is asked first, one visitor at a time."""
+    key = (name, type(vehicle))
+    if name == "download" or key in _derived:
+        return
+    with _deriving:
+        if key not in _derived:
+            with contextlib.suppress(UcritError, ArithmeticError, np.linalg.LinAlgError):
+                work(vehicle, {})
             _derived.add(key)
-    if isinstance(found, File):
-        disposition = {"content-disposition": f'attachment; filename="{found.name}"'}
-        return Response(found.content, media_type=found.media, headers=disposition)
-    return _json(found)
+
+
+class NotFiniteError(Exception):
+    """An answer with an infinite or undefined number in it."""
 
 
 def _json(content: Any, status: int = 200) -> Response:
-    text = json.dumps(content, allow_nan=False, separators=(",", ":"), ensure_ascii=False)
-    return Response(text.encode(), status, media_type="application/json")
+    try:
+        text = json.dumps(content, allow_nan=False, separators=(",", ":"), ensure_ascii=False)
+    except ValueError:
+        raise NotFiniteError from None
+    return Response(text.encode(errors="replace"), status, media_type="application/json")

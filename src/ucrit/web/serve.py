@@ -94,7 +94,15 @@ def _fragment(vehicle: Model | str | os.PathLike[str] | None) -> str:
         return "#" + urlencode({"v": vehicle})
     subject = vehicle if isinstance(vehicle, Model) else load(vehicle)
     text = write_vehicle(subject)
-    read_vehicle(text, subject.info.name or "the vehicle")  # the page can show models of the catalogue only
+    try:
+        same = read_vehicle(text, "the vehicle")
+    except UcritError:
+        same = None
+    if type(same) is not type(subject):
+        model = type(subject).model_id()
+        raise UcritError(
+            f"the explorer shows models, laws and tires of the catalogue; '{model}' is not made of these alone"
+        )
     return "#" + urlencode({"toml": text})
 
 
