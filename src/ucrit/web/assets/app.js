@@ -1,11 +1,11 @@
 // The page: what is chosen, what is asked, what is drawn. All state is here and in the link; the server keeps none.
 import { Newest, Problem, ask, save } from "./ask.js";
-import { branchClass, dampingPlot, frequencyPlot, locusPlot, mapPlot, steady } from "./draw.js";
+import { dampingPlot, frequencyPlot, locusPlot, mapPlot, steady } from "./draw.js";
 import { Film } from "./film.js";
 import { readLink, write } from "./link.js";
 import { Panel } from "./panel.js";
 import { Plot } from "./plot.js";
-import { comparison, criticalWords, modeRows, remedyList } from "./tables.js";
+import { comparison, criticalWords, legend, modeRows, remedyList } from "./tables.js";
 import { SYSTEMS, plain, shownUnit } from "./units.js";
 
 const $ = id => document.getElementById(id);
@@ -121,7 +121,7 @@ function draw() {
     if (frequency) plots.frequency.set(frequency);
     else plots.frequency.empty("Nothing oscillates in this range.");
   } else for (const name of ["locus", "damping", "frequency"]) plots[name].empty(name === "locus" ? answer.why[0].toUpperCase() + answer.why.slice(1) + "." : "");
-  legend(answer, pinned);
+  legend($("legend"), answer, pinned);
   drawMap();
   modeRows($("modes"), answer.analysis.modes);
   $("compare-card").hidden = !pinned;
@@ -135,18 +135,6 @@ function drawMap() {
   if (!map || (plots.map.content && map.drawn === key)) return;
   map.drawn = key;
   plots.map.set(mapPlot(map, s.values, s.parameters, s.units, s.pin?.values));
-}
-
-function legend(answer, pinned) {
-  const named = new Map((answer.locus?.branches || []).map(b => [b.index, b.name]));
-  const html = [...named].map(([index]) => `<li><svg viewBox="0 0 30 10" aria-hidden="true"><path class="line ${branchClass(index)}" d="M0 5H30"/></svg> <span></span></li>`);
-  if (pinned) html.push('<li><svg viewBox="0 0 30 10" aria-hidden="true"><path class="line pinned" d="M0 5H30"/></svg> pinned</li>');
-  if (named.size) html.push('<li><svg viewBox="0 0 30 10" aria-hidden="true"><path class="design" d="M15 0l5 5l-5 5l-5 -5z"/></svg> the vehicle</li>');
-  const key = html.join("") + [...named.values()];
-  if ($("legend").dataset.key === key) return;
-  $("legend").dataset.key = key;
-  $("legend").innerHTML = html.join("");
-  $("legend").querySelectorAll("span").forEach((span, i) => { span.textContent = [...named.values()][i]; });
 }
 
 function motionChoices(modes) {

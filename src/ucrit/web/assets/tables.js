@@ -1,4 +1,5 @@
 // Words and tables of the page.
+import { branchClass } from "./draw.js";
 import { quantity, read } from "./units.js";
 
 function cell(row, text, name = "") {
@@ -72,4 +73,16 @@ export function comparison(host, pinned, answer, parameters, system) {
   const words = m => m ? `${m.name} ${read(m.re)}${m.im ? ` ± ${read(m.im)} i` : ""} 1/s` : "none";
   add("least stable mode", words(least(pinned)), words(least(answer)));
   host.replaceChildren(table);
+}
+
+export function legend(host, answer, pinned) {
+  const named = new Map((answer.locus?.branches || []).map(b => [b.index, b.name]));
+  const html = [...named].map(([index]) => `<li><svg viewBox="0 0 30 10" aria-hidden="true"><path class="line ${branchClass(index)}" d="M0 5H30"/></svg> <span></span></li>`);
+  if (pinned) html.push('<li><svg viewBox="0 0 30 10" aria-hidden="true"><path class="line pinned" d="M0 5H30"/></svg> pinned</li>');
+  if (named.size) html.push('<li><svg viewBox="0 0 30 10" aria-hidden="true"><path class="design" d="M15 0l5 5l-5 5l-5 -5z"/></svg> the vehicle</li>');
+  const key = html.join("") + [...named.values()];
+  if (host.dataset.key === key) return;
+  host.dataset.key = key;
+  host.innerHTML = html.join("");
+  host.querySelectorAll("span").forEach((span, i) => { span.textContent = [...named.values()][i]; });
 }
