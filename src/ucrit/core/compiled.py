@@ -88,6 +88,11 @@ class Compiled:
         """Function of the parameters giving a_0 ... a_n, each broadcast only over what it depends on."""
         return build(self._facts["coefficients"], "coefficients")
 
+    @property
+    def source(self) -> str:
+        """Source of `coefficients`, straight-line code of one function."""
+        return str(self._facts["coefficients"])
+
     @cached_property
     def exact_coefficients(self) -> Callable[[Arguments], tuple[Any, ...]]:
         """The same function for `fractions.Fraction`: exact, but for functions such as cosines of parameters."""
@@ -244,8 +249,12 @@ def deciding_coefficients(vehicle: Model) -> tuple[Any, ...]:
     ``p``: its roots lie in the left half plane if and only if those of p are simple and on the imaginary axis
     (F. R. Gantmacher, The Theory of Matrices (1959), volume 2, chapter XV, sections 7 and 16).
     """
-    functions = compiled(type(vehicle), direction(vehicle))
-    a = coefficients(vehicle)[functions.structural_zeros :]
+    return deciding(compiled(type(vehicle), direction(vehicle)), coefficients(vehicle))
+
+
+def deciding(functions: Compiled, a: Sequence[Any]) -> tuple[Any, ...]:
+    """Return `deciding_coefficients` from all characteristic coefficients."""
+    a = tuple(a)[functions.structural_zeros :]
     if not functions.undamped:
         return a
     return tuple(c + (k + 1) * a[k + 1] if k + 1 < len(a) else c for k, c in enumerate(a))

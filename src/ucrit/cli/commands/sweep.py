@@ -50,16 +50,17 @@ def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], out
     """
     from ...analyses.sweep import sweep
 
-    write = _writer(output)
+    write = writer(output)
     subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
     read = assignments(ranges, '"U=20:130:12 km/h"')
-    _refuse_both(read, assignments(changes, "a=1.9"))
+    refuse_both(read, assignments(changes, "a=1.9"))
     with _progress() as progress:
         result = sweep(subject, progress=progress, **read)
     write(result)
 
 
-def _refuse_both(ranges: dict[str, Any], changes: dict[str, Any]) -> None:
+def refuse_both(ranges: dict[str, Any], changes: dict[str, Any]) -> None:
+    """Refuse a parameter that has both a range and a value."""
     from ...core.errors import UcritError
 
     for name in ranges.keys() & changes.keys():
@@ -67,7 +68,7 @@ def _refuse_both(ranges: dict[str, Any], changes: dict[str, Any]) -> None:
         raise UcritError(f"parameter {name} is given twice, {given}")
 
 
-def _writer(output: str | None) -> Callable[[Any], None]:
+def writer(output: str | None, others: tuple[str, ...] = ()) -> Callable[[Any], None]:
     """Return what writes a result; a file ending that is not known is refused before anything is computed."""
     from ...core.errors import UcritError
 
@@ -75,7 +76,7 @@ def _writer(output: str | None) -> Callable[[Any], None]:
         return _to_stdout
     ending = output[output.rfind(".") :] if "." in output else ""
     if ending not in FORMATS:
-        raise UcritError(f"the output '{output}' must end in {', '.join(FORMATS)}")
+        raise UcritError(f"the output '{output}' must end in {', '.join((*FORMATS, *others))}")
     if ending == ".nc":
         return lambda result: _to_netcdf(result, output)
     return lambda result: getattr(result, FORMATS[ending])(output)
