@@ -41,6 +41,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.sweep import sweep as sweep
     from .analyses.transfer import transfer as transfer
     from .analyses.trim import trim as trim
+    from .analyses.uncertainty import uncertainty as uncertainty
     from .analyses.verdict import verdict as verdict
     from .catalogue import find_model as find_model
     from .catalogue import load as load
@@ -110,6 +111,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "steady_turn": "analyses.steady",
     "transfer": "analyses.transfer",
     "trim": "analyses.trim",
+    "uncertainty": "analyses.uncertainty",
     "show": "analyses.show",
     "list": ("analyses.listing", "listing"),
     "new": ("analyses.listing", "template"),

@@ -19,6 +19,7 @@ COMMANDS = {
     "show": "show",
     "new": "new",
     "sweep": "sweep",
+    "uncertainty": "uncertainty",
     "routh": "routh",
     "check": "check",
     "completion": "completion",

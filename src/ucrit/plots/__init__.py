@@ -15,6 +15,7 @@ from .participation import plot_participation
 from .remedies import plot_remedies
 from .root_locus import plot_locus
 from .stability_map import plot_map
+from .uncertainty import plot_uncertainty
 
 __all__ = [
     "plot",
@@ -26,4 +27,5 @@ __all__ = [
     "plot_overview",
     "plot_participation",
     "plot_remedies",
+    "plot_uncertainty",
 ]

@@ -10,16 +10,17 @@ from .moment_line import plot_moment_line
 from .overview import plot_overview
 from .remedies import plot_remedies
 from .stability_map import plot_map
+from .uncertainty import plot_uncertainty
 
 
 def plot(result: Any, *, figure: Any = None) -> Any:
-    """Draw a result: an analysis, a root locus, modes, remedies, a stability map, lines of moment against lift.
+    """Draw a result: an analysis, a root locus, modes, remedies, a stability map, uncertainty, lines of moment against lift.
 
     Parameters
     ----------
     result
-        What `ucrit.analyze`, `locus`, `modes`, `remedies`, `stability_map` or `moment_line` returned. Of an analysis
-        the root locus and the damping against speed are drawn, of a vehicle without speed its modes.
+        What `ucrit.analyze`, `locus`, `modes`, `remedies`, `stability_map`, `uncertainty` or `moment_line` returned. Of an
+        analysis the root locus and the damping against speed are drawn, of a vehicle without speed its modes.
     figure
         Figure to draw into; a new one by default.
 
@@ -44,6 +45,7 @@ def plot(result: Any, *, figure: Any = None) -> Any:
     from ..analyses.pitching import MomentLine
     from ..analyses.remedies import Remedy
     from ..analyses.stability_map import StabilityMap
+    from ..analyses.uncertainty import Uncertainty
 
     if isinstance(result, Analysis):
         return _analysis(result, figure)
@@ -55,11 +57,13 @@ def plot(result: Any, *, figure: Any = None) -> Any:
         return plot_map(result, figure=figure)
     if isinstance(result, MomentLine):
         return plot_moment_line(result, figure=figure)
+    if isinstance(result, Uncertainty):
+        return plot_uncertainty(result, figure=figure)
     if isinstance(result, tuple) and result and all(isinstance(item, Remedy) for item in result):
         return plot_remedies(result, figure=figure)
     raise UcritError(
         f"there is no drawing for {type(result).__name__}; "
-        "drawn are the results of analyze, locus, modes, remedies, stability_map and moment_line"
+        "drawn are the results of analyze, locus, modes, remedies, stability_map, uncertainty and moment_line"
     )
 
 

@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import sys
-import time
-from collections.abc import Iterator
-from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
+from ..progress import progress_bar
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -54,7 +52,7 @@ def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], out
     subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
     read = assignments(ranges, '"U=20:130:12 km/h"')
     refuse_both(read, assignments(changes, "a=1.9"))
-    with _progress() as progress:
+    with progress_bar("sweep") as progress:
         result = sweep(subject, progress=progress, **read)
     write(result)
 
@@ -97,28 +95,3 @@ def _to_netcdf(result: Any, path: str) -> None:
 
     content: bytes = bytes(result.to_xarray().to_netcdf(engine="scipy"))
     write_whole(path, content)
-
-
-@contextmanager
-def _progress() -> Iterator[Callable[[int, int], None]]:
-    """Yield a function that shows a bar on stderr once the work has taken a second, if that is a terminal."""
-    start = time.monotonic()
-    bars: list[Any] = []
-
-    def advance(done: int, total: int) -> None:
-        if not bars and time.monotonic() - start > 1 and done < total:
-            from rich.progress import Progress
-
-            from ..terminal import terminal
-
-            bar = Progress(console=terminal(stderr=True), transient=True)
-            bars.append((bar, bar.add_task("sweep", total=total)))
-            bar.start()
-        for bar, task in bars:
-            bar.update(task, completed=done, total=total)
-
-    try:
-        yield advance
-    finally:
-        for bar, _ in bars:
-            bar.stop()
