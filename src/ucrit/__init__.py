@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.analyze import analyze as analyze
     from .analyses.approximation import approximation as approximation
+    from .analyses.certify import certify as certify
     from .analyses.compare import compare as compare
     from .analyses.convert import to_control as to_control
     from .analyses.convert import to_scipy as to_scipy
@@ -93,6 +94,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "verdict": "analyses.verdict",
     "approximation": "analyses.approximation",
     "axle_loads": "analyses.steady",
+    "certify": "analyses.certify",
     "compare": "analyses.compare",
     "frequency_response": "analyses.response",
     "impulse_response": "analyses.response",

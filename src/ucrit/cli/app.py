@@ -20,6 +20,7 @@ COMMANDS = {
     "new": "new",
     "sweep": "sweep",
     "uncertainty": "uncertainty",
+    "certify": "certify",
     "routh": "routh",
     "check": "check",
     "completion": "completion",
@@ -106,7 +107,7 @@ def cli(ctx: click.Context) -> None:
     \b
     Exit status:
       0  done, whatever the verdict      2  wrong input: one sentence on stderr
-      1  a check failed (ucrit check)    3  not stable (analyze --fail-if-unstable)
+      1  a check failed (ucrit check)    3  not stable (--fail-if-unstable)
     """
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())

@@ -12,6 +12,7 @@ from .wrap import number
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from ..analyses.certify import Certificate
     from ..analyses.uncertainty import Uncertainty
 
 SHARES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
@@ -53,3 +54,27 @@ def _speed(speed: float) -> str:
 
 def _share(share: float, error: float, plus_minus: str) -> str:
     return f"{100 * share:.1f} {plus_minus} {100 * error:.1f} %"
+
+
+WORDS = {"proved": ("PROVED", "green"), "refuted": ("NOT STABLE", "red"), "undecided": ("UNDECIDED", "yellow")}
+
+
+def show_certificate(console: Console, found: Certificate) -> None:
+    """Print a proof, a counter-example with its eigenvalues, or what is left open."""
+    page = Page(console)
+    vehicle_head(page, found.vehicle)
+    word, colour = WORDS[found.state]
+    page.line()
+    page.line((word, f"bold {colour}"))
+    sentence = found.sentence
+    page.paragraph(sentence[:1].upper() + sentence[1:] + ".")
+    if found.counterexample is not None:
+        page.heading("Eigenvalues there [1/s]")
+        seen = [z for z in found.counterexample.eigenvalues if z.imag >= 0]
+        for z in seen:
+            page.line(f"  {number(z.real)}" + (f" {page.plus_minus} {number(z.imag)}j" if z.imag else ""))
+    elif found.state == "undecided":
+        page.heading("Left open, the first of them")
+        for box in found.undecided[:5]:
+            ends = [f"{name} {low:.8g} to {high:.8g}" for name, (low, high) in zip(found.ranges, box, strict=True)]
+            page.paragraph(", ".join(ends), indent=2, hanging=2)
