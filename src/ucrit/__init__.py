@@ -20,6 +20,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.forms import SecondOrder as SecondOrder
     from .analyses.forms import StateSpace as StateSpace
     from .analyses.forms import forms as forms
+    from .analyses.lazy import lazy as lazy
     from .analyses.limits import limit as limit
     from .analyses.listing import listing as list  # noqa: F401
     from .analyses.listing import template as new  # noqa: F401
@@ -39,6 +40,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.static import static_stability as static_stability
     from .analyses.steady import axle_loads as axle_loads
     from .analyses.steady import steady_turn as steady_turn
+    from .analyses.stream import stream as stream
     from .analyses.sweep import sweep as sweep
     from .analyses.transfer import transfer as transfer
     from .analyses.trim import trim as trim
@@ -104,6 +106,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "SecondOrder": "analyses.forms",
     "StateSpace": "analyses.forms",
     "forms": "analyses.forms",
+    "lazy": "analyses.lazy",
     "limit": "analyses.limits",
     "moment_line": "analyses.pitching",
     "static_margin": "analyses.pitching",
@@ -112,6 +115,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "static_stability": "analyses.static",
     "steady_turn": "analyses.steady",
     "transfer": "analyses.transfer",
+    "stream": "analyses.stream",
     "trim": "analyses.trim",
     "uncertainty": "analyses.uncertainty",
     "show": "analyses.show",

@@ -13,6 +13,7 @@ from ..progress import progress_bar
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+ZARR = ".zarr"
 FORMATS = {".csv": "to_csv", ".nc": "to_netcdf", ".json": "to_json", ".mat": "to_mat"}
 
 
@@ -27,8 +28,13 @@ FORMATS = {".csv": "to_csv", ".nc": "to_netcdf", ".json": "to_json", ".mat": "to
     shell_complete=complete_parameters,
     help="Change a parameter that is not swept; may be repeated.",
 )
-@click.option("-o", "--output", metavar="FILE", help="Write .csv, .nc (netCDF), .json or .mat; else CSV on stdout.")
-def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], output: str | None) -> None:
+@click.option(
+    "-o", "--output", metavar="FILE", help="Write .csv, .nc (netCDF), .json, .mat or .zarr; else CSV on stdout."
+)
+@click.option("--scheduler", metavar="ADDRESS", help="Let the workers of this Dask scheduler compute (only to .zarr).")
+def command(
+    vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], output: str | None, scheduler: str | None
+) -> None:
     """Tabulate stability, growth, damping and eigenvalues for every combination of parameters.
 
     \b
@@ -43,18 +49,39 @@ def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], out
       ucrit sweep caravan "U=20:130:12 km/h"
       ucrit sweep caravan m=1000:1500:50 "U=10:130:60 km/h" -o caravan.nc
       ucrit sweep caravan a=1.5:4:26 --set "m=1.4 t" -o caravan.csv
+      ucrit sweep caravan m=800:2000:9999 U=5:45:9999 -o large.zarr
+
+    A Zarr store is written piece by piece, may be larger than memory, and is gone on with after an interruption.
 
     Exit status: 0 done; 2 wrong input, nothing is written then.
     """
     from ...analyses.sweep import sweep
 
-    write = writer(output)
+    if output is not None and output.endswith(ZARR):
+        _stream(vehicle, ranges, changes, output, scheduler)
+        return
+    if scheduler is not None:
+        raise click.UsageError("--scheduler needs a store that workers can write to: give -o FILE.zarr too")
+    write = writer(output, (ZARR,))
     subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
     read = assignments(ranges, '"U=20:130:12 km/h"')
     refuse_both(read, assignments(changes, "a=1.9"))
     with progress_bar("sweep") as progress:
         result = sweep(subject, progress=progress, **read)
     write(result)
+
+
+def _stream(
+    vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], output: str, scheduler: str | None
+) -> None:
+    """Write a sweep to a Zarr store, piece by piece."""
+    from ...analyses.stream import stream
+
+    read = assignments(ranges, '"U=20:130:12 km/h"')
+    refuse_both(read, assignments(changes, "a=1.9"))
+    subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
+    with progress_bar("sweep") as progress:
+        stream(subject, output, kind="sweep", client=scheduler, progress=progress, **read)
 
 
 def refuse_both(ranges: dict[str, Any], changes: dict[str, Any]) -> None:
