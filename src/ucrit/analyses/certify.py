@@ -35,6 +35,8 @@ CHUNK = 4096
 NARROWEST = 2.0**-30
 """Boxes narrower than this share of the range in every direction are not halved any more."""
 
+BELOW_ONE = float(np.nextafter(1.0, 0.0))
+
 MOST = 12
 """Parameters that a box may have."""
 
@@ -268,7 +270,7 @@ class _Search:
         left = np.concatenate([*narrow, *queue], axis=2).transpose(2, 1, 0)
         left = left if example is None else left[:0]
         whole = example is None and not len(left)
-        return Certificate(self.vehicle, self.ranges, example, 1.0 if whole else share, left, self.done)
+        return Certificate(self.vehicle, self.ranges, example, 1.0 if whole else min(share, BELOW_ONE), left, self.done)
 
     def _volume(self, block: Array) -> Any:
         return np.prod((block[1] - block[0]) / (self.upper - self.lower), axis=0).sum()
