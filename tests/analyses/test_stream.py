@@ -1,12 +1,10 @@
 """Maps and sweeps in chunks: the same numbers, whoever computes them and however often they are stopped."""
 
 import os
-import resource
 import signal
 import subprocess
 import sys
 import textwrap
-import time
 from pathlib import Path
 
 import numpy as np
@@ -104,7 +102,7 @@ def cluster():
     from distributed import LocalCluster
 
     with LocalCluster(
-        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
+        n_workers=2, threads_per_worker=1, processes=True, dashboard_address=":0", silence_logs=50
     ) as local:
         yield local
 
@@ -123,8 +121,7 @@ def test_a_cluster_that_loses_a_process_in_the_middle_gives_everything(cluster, 
         CARAVAN, store, kind="sweep", chunk=11, client=cluster.scheduler_address, progress=watch, **RANGES
     )
     assert killed
-    assert seen == list(range(38)) or sorted(set(seen)) == seen
-    assert seen[-1] == 37
+    assert seen == list(range(38))
     assert_same(found, expected("sweep"))
     marks = stamps(store, "chunk_done")
     assert len(marks) == 37
@@ -135,14 +132,12 @@ def test_lazy_results_are_computed_by_a_cluster(cluster):
     from distributed import Client
 
     with Client(cluster, set_as_default=False) as client:
-        found = client.compute(lazy(CARAVAN, kind="sweep", chunk=100, **RANGES)).result()
-        assert_same(found, expected("sweep"))
-        streamed = client.submit(len, [1]).result()
-        assert streamed == 1
+        found = client.compute(lazy(CARAVAN, kind="sweep", chunk=100, **RANGES).growth.data).result()
+    np.testing.assert_array_equal(found, expected("sweep").growth)
 
 
 def test_memory_stays_bounded(tmp_path):
-    """A map of 40 million points, 40 MB in one piece, in a process that may not grow by half of that."""
+    """A map of 25 million points, 25 MB in one piece, in a process that may not grow by half of that."""
     code = f"""
         import resource
         import numpy as np
@@ -150,12 +145,12 @@ def test_memory_stays_bounded(tmp_path):
         caravan = load("caravan")
         stream(caravan, {str(tmp_path / "a")!r}, chunk=2**18, U=np.linspace(5, 40, 64), c=np.linspace(0, 5000, 2**13))
         before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
-        stream(caravan, {str(tmp_path / "b")!r}, chunk=2**18, U=np.linspace(5, 40, 5000), c=np.linspace(0, 5000, 2**13))
+        stream(caravan, {str(tmp_path / "b")!r}, chunk=2**18, U=np.linspace(5, 40, 3000), c=np.linspace(0, 5000, 2**13))
         print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before)
     """
     done = subprocess.run([sys.executable, "-c", textwrap.dedent(code)], capture_output=True, text=True, check=True)
     kib = int(done.stdout)
-    assert kib < 20 * 1024, f"{kib} KiB more for 41 million points"
+    assert kib < 12 * 1024, f"{kib} KiB more for 25 million points"
 
 
 def test_other_jobs_and_other_folders_are_left_alone(tmp_path):
@@ -163,7 +158,7 @@ def test_other_jobs_and_other_folders_are_left_alone(tmp_path):
     stream(CARAVAN, store, **RANGES)
     for vehicle, options, what in (
         (CARAVAN.with_(m=1000), {}, "parameters"),
-        (CARAVAN, {"kind": "sweep"}, "kind, chunks"),
+        (CARAVAN, {"kind": "sweep"}, "kind"),
         (CARAVAN, {"chunk": 11}, "chunks"),
         (CARAVAN, {"U": [1, 2]}, "ranges, chunks"),
         (load("caravan-undamped-hitch"), {"c": None, "k": [1e3, 2e3]}, "model, equations, parameters, ranges, chunks"),
@@ -195,9 +190,7 @@ def test_other_jobs_and_other_folders_are_left_alone(tmp_path):
     ],
 )
 def test_wrong_input_is_refused_in_a_sentence(options, message, tmp_path, monkeypatch):
-    from ucrit.analyses import stream as module
-
-    monkeypatch.setattr(sys.modules["ucrit.analyses.stream"] if not hasattr(module, "TIMEOUT") else module, "TIMEOUT", 0.5)
+    monkeypatch.setattr(sys.modules["ucrit.analyses.stream"], "TIMEOUT", 0.5)
     with pytest.raises(UcritError) as caught:
         stream(CARAVAN, tmp_path / "x", **{**RANGES, **options})
     assert message in str(caught.value)
@@ -210,7 +203,7 @@ def test_a_scheduler_that_dies_leaves_what_is_done(tmp_path, monkeypatch):
     monkeypatch.setattr(sys.modules["ucrit.analyses.stream"], "TIMEOUT", 1)
     store = tmp_path / "x.zarr"
 
-    with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None, silence_logs=50) as own:
+    with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0", silence_logs=50) as own:
 
         def stop(done, total):
             if done == 5:

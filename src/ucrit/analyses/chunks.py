@@ -111,9 +111,10 @@ class Job:
             "eigenvalue_imag": found.eigenvalues.imag,
         }
 
-    def units(self) -> dict[str, str]:
-        """Return the units of the dimensions."""
-        return {name: unit_of(self.vehicle, name) for name in (*self.coords, *self.further())}
+    def units(self) -> dict[str, dict[str, str]]:
+        """Return the units of the dimensions, as attributes; a dimension that counts has none."""
+        named = {name: {"units": unit_of(self.vehicle, name)} for name in self.coords}
+        return {**named, **dict.fromkeys(self.further(), {})}
 
 
 def job(vehicle: Model, kind: str, chunk: int | None, ranges: Mapping[str, Any]) -> Job:

@@ -58,7 +58,7 @@ def lazy(
     told = found.variables()
     return xarray.Dataset(
         {n: ((*found.dims, *told[n][2]), x, {"units": told[n][1]} if told[n][1] else {}) for n, x in data.items()},
-        {n: ((n,), x, {"units": units[n]}) for n, x in coords.items()},
+        {n: ((n,), x, units[n]) for n, x in coords.items()},
         {"title": kind, "model": type(vehicle).model_id(), "vehicle": vehicle.info.name},
     )
 

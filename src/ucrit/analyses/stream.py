@@ -9,6 +9,7 @@ from __future__ import annotations
 import json
 import os
 from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import CancelledError
 from contextlib import contextmanager
 from hashlib import sha256
 from itertools import islice
@@ -178,8 +179,7 @@ def _made(zarr: Any, path: str, found: Job, told: dict[str, Any]) -> Any:
     group = zarr.open_group(path, mode="w", attributes={"title": MAKING})
     further, units = found.further(), found.units()
     for name, values in {**found.coords, **further}.items():
-        array = group.create_array(name, data=np.asarray(values), dimension_names=[name])
-        array.attrs["units"] = units[name]
+        group.create_array(name, data=np.asarray(values), dimension_names=[name], attributes=units[name])
     for name, (dtype, unit, more) in found.variables().items():
         widths = [further[key].size for key in more]
         array = group.create_array(
@@ -240,17 +240,20 @@ def _by_workers(found: Job, path: str, todo: Iterator[Place], cluster: Any) -> I
         waiting.add(_submitted(cluster, found, path, place))
     while waiting:
         try:
-            finished, _ = distributed.wait(waiting, timeout=TIMEOUT, return_when="FIRST_COMPLETED")
+            with cluster.as_current():
+                finished, _ = distributed.wait(waiting, timeout=TIMEOUT, return_when="FIRST_COMPLETED")
         except TimeoutError:  # chunks may take their time, but somebody must be at work
             if cluster.status != "running" or not _threads(cluster):
                 raise _lost("nobody is at work any more") from None
             continue
+        except CancelledError as error:
+            raise _lost(str(error)) from None
         for future in finished:
             waiting.discard(future)
             try:
                 future.result()
-            except (distributed.scheduler.KilledWorker, distributed.client.FutureCancelledError) as error:
-                raise _lost(str(error).partition("\n")[0]) from None
+            except (distributed.scheduler.KilledWorker, CancelledError) as error:
+                raise _lost(str(error)) from None
             yield
             for place in islice(todo, 1):
                 waiting.add(_submitted(cluster, found, path, place))
@@ -265,4 +268,5 @@ def _threads(cluster: Any) -> int:
 
 
 def _lost(why: str) -> UcritError:
-    return UcritError(f"the cluster was lost ({why}); chunks that are done stay done, call again to go on")
+    told = why.partition("\n")[0].rstrip(":. ")
+    return UcritError(f"the cluster was lost ({told}); chunks that are done stay done, call again to go on")
