@@ -117,9 +117,7 @@ def test_a_cluster_that_loses_a_process_in_the_middle_gives_everything(cluster, 
             killed.append((pid, stamps(store, "chunk_done")))
             os.kill(pid, signal.SIGKILL)
 
-    found = stream(
-        CARAVAN, store, kind="sweep", chunk=11, client=cluster.scheduler_address, progress=watch, **RANGES
-    )
+    found = stream(CARAVAN, store, kind="sweep", chunk=11, client=cluster.scheduler_address, progress=watch, **RANGES)
     assert killed
     assert seen == list(range(38))
     assert_same(found, expected("sweep"))
@@ -203,7 +201,9 @@ def test_a_scheduler_that_dies_leaves_what_is_done(tmp_path, monkeypatch):
     monkeypatch.setattr(sys.modules["ucrit.analyses.stream"], "TIMEOUT", 1)
     store = tmp_path / "x.zarr"
 
-    with LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0", silence_logs=50) as own:
+    with LocalCluster(
+        n_workers=1, threads_per_worker=1, processes=False, dashboard_address=":0", silence_logs=50
+    ) as own:
 
         def stop(done, total):
             if done == 5:

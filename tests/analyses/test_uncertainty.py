@@ -112,7 +112,9 @@ def test_the_same_seed_gives_the_same_result(seed, samples):
 
 
 def test_probability_counts_ranges_that_are_stable_in_between():
-    found = uncertainty(with_tolerances(load("caravan-undamped-hitch").with_(I_c=4200), Tolerance("k", 50.0)), samples=64)
+    found = uncertainty(
+        with_tolerances(load("caravan-undamped-hitch").with_(I_c=4200), Tolerance("k", 50.0)), samples=64
+    )
     assert found.always == 1
     assert found.probability([1, 30]).tolist() == [1, 1]
     assert found.quantile(0.5) == 0

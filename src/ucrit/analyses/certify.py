@@ -7,7 +7,6 @@ whole, another one is halved. What is proved is proved for real numbers, whateve
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from fractions import Fraction
 from itertools import product
 from typing import Any
@@ -15,16 +14,14 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..core.compiled import compiled
 from ..core.errors import UcritError, near_match
 from ..core.model import Model
 from ..core.possible import holds
 from ..numerics.rigorous import Boxes, Proved, exact_pair
-from .convert import Series, Table, Tabular, unit_of
+from .certificate import Certificate, Counterexample, sense_of
 from .enclosing import Enclosing, within
 from .exact_ranges import exact_range
 from .modes import eigenvalues
-from .wording import speed_text
 
 Array = npt.NDArray[Any]
 Progress = Callable[[int, int], None]
@@ -39,127 +36,6 @@ BELOW_ONE = float(np.nextafter(1.0, 0.0))
 
 MOST = 12
 """Parameters that a box may have."""
-
-
-@dataclass(frozen=True)
-class Counterexample:
-    """A vehicle of the region that is not stable, for sure.
-
-    Attributes
-    ----------
-    vehicle
-        With the values of the counter-example put in.
-    values
-        The parameters of the region and their values [SI], doubles that lie in it.
-    eigenvalues
-        Eigenvalues [1/s] there, the least stable first.
-    """
-
-    vehicle: Model
-    values: Mapping[str, float]
-    eigenvalues: tuple[complex, ...]
-
-    def __str__(self) -> str:
-        first = self.eigenvalues[0]
-        imag = f" +- {abs(first.imag):.4g}j" if first.imag else ""
-        at = ", ".join(_value(self.vehicle, name, x) for name, x in self.values.items())
-        return f"not stable at {at}: eigenvalue {first.real:.4g}{imag} 1/s"
-
-
-@dataclass(frozen=True, eq=False)
-class Certificate(Tabular):
-    """What is proved about a box of parameters.
-
-    Attributes
-    ----------
-    vehicle
-        The vehicle; its other parameters hold as written.
-    ranges
-        Ends of each parameter's range [SI], exactly.
-    counterexample
-        A vehicle in the region that is not stable, where one was found.
-    proved_share
-        Share of the volume that is proved stable, 0 to 1; 1 exactly where all of it is.
-    undecided
-        Boxes left open, shape (boxes, parameters, 2) [SI]; none where there is a proof.
-    boxes
-        How many boxes were looked at.
-    """
-
-    vehicle: Model
-    ranges: Mapping[str, tuple[Fraction, Fraction]]
-    counterexample: Counterexample | None
-    proved_share: float
-    undecided: Array
-    boxes: int
-
-    @property
-    def state(self) -> str:
-        """``"proved"``, ``"refuted"`` (by the counter-example) or ``"undecided"``."""
-        if self.counterexample is not None:
-            return "refuted"
-        return "undecided" if len(self.undecided) else "proved"
-
-    @property
-    def proved(self) -> bool:
-        """Whether every vehicle of the region is proved stable."""
-        return self.state == "proved"
-
-    def __bool__(self) -> bool:
-        return self.proved
-
-    @property
-    def sentence(self) -> str:
-        """The finding in words."""
-        if self.counterexample is not None:
-            return str(self.counterexample)
-        neutral = compiled(type(self.vehicle), _sense(self.vehicle, self.ranges)).undamped
-        word = "nothing grows (neutral)" if neutral else "stable"
-        where = " and ".join(_range(self.vehicle, name, *ends) for name, ends in self.ranges.items())
-        if self.proved:
-            return f"{word} for {where}: proved with {self.boxes} box{'es' if self.boxes > 1 else ''}"
-        return (
-            f"not decided for {where}: {_percent(self.proved_share)} of the volume is proved stable, no counter-example "
-            f"was found, {len(self.undecided)} boxes are left after {self.boxes}; allow more boxes or take a smaller "
-            "region"
-        )
-
-    def table(self) -> Table:
-        """Return one row for each box left undecided."""
-        rows = ("box",)
-        numbers = Series("box", rows, np.arange(1, len(self.undecided) + 1))
-        data = [
-            Series(f"{name}_{end}", rows, self.undecided[:, i, j], unit_of(self.vehicle, name))
-            for i, name in enumerate(self.ranges)
-            for j, end in enumerate(("lower", "upper"))
-        ]
-        return Table("undecided boxes", self.vehicle, (numbers,), tuple(data), rows)
-
-    def __str__(self) -> str:
-        return self.sentence
-
-
-def _value(vehicle: Model, name: str, x: float) -> str:
-    unit = unit_of(vehicle, name)
-    return f"{name} = {x:.8g}" + ("" if unit == "1" else f" {unit}")
-
-
-def _range(vehicle: Model, name: str, low: Fraction, high: Fraction) -> str:
-    unit = unit_of(vehicle, name)
-    if name == type(vehicle).declaration.speed:
-        return f"every {name} from {float(low):.6g} to {speed_text(float(high))}"
-    return f"every {name} from {float(low):.10g} to {float(high):.10g}" + ("" if unit == "1" else f" {unit}")
-
-
-def _percent(share: float) -> str:
-    return f"{min(100 * share, 99.9999):.6g} %"
-
-
-def _sense(vehicle: Model, ranges: Mapping[str, tuple[Fraction, Fraction]]) -> int:
-    speed = type(vehicle).declaration.speed
-    if speed is None:
-        return 1
-    return 1 if (ranges[speed][1] if speed in ranges else vehicle.values[speed]) > 0 else -1
 
 
 def certify(
@@ -237,9 +113,7 @@ class _Search:
     ) -> None:
         self.vehicle, self.ranges, self.most, self.progress = vehicle, ranges, most, progress
         self.names = list(ranges)
-        speed = type(vehicle).declaration.speed
-        self.asked = Enclosing(vehicle, self.names, _sense(vehicle, ranges))
-        self.speed = speed
+        self.asked = Enclosing(vehicle, self.names, sense_of(vehicle, ranges))
         pairs = [(exact_pair(low), exact_pair(high)) for low, high in ranges.values()]
         self.lower = np.array([[low[0]] for low, _ in pairs])
         self.upper = np.array([[high[1]] for _, high in pairs])
@@ -312,7 +186,7 @@ class _Search:
         size = np.fmax(*(np.abs(np.broadcast_to(s, boxes.lower.shape)[:, chosen]) for s in barrier.slopes))
         smear = np.where(relative > NARROWEST, size * width, -1.0)
         known = np.isfinite(smear).all(axis=0)
-        return np.where(known, np.argmax(smear, axis=0), np.argmax(relative, axis=0))
+        return np.asarray(np.where(known, np.argmax(smear, axis=0), np.argmax(relative, axis=0)))
 
     def _refuted(self, boxes: Boxes, unstable: Array | None = None) -> Counterexample | None:
         """Return the most unstable of the centres that are not stable for sure."""

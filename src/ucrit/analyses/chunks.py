@@ -69,9 +69,7 @@ class Job:
 
     def slices(self, place: Place) -> tuple[slice, ...]:
         """Return which points a chunk holds."""
-        return tuple(
-            slice(i * c, min((i + 1) * c, n)) for i, c, n in zip(place, self.chunk, self.shape, strict=True)
-        )
+        return tuple(slice(i * c, min((i + 1) * c, n)) for i, c, n in zip(place, self.chunk, self.shape, strict=True))
 
     def variables(self) -> dict[str, tuple[str, str, tuple[str, ...]]]:
         """Return type, unit and further dimensions of each result."""
@@ -99,9 +97,10 @@ class Job:
 
     def compute(self) -> dict[str, Array]:
         """Return all results, in one piece."""
+        ranges: dict[str, Any] = dict(self.coords)
         if self.kind == "map":
-            return {"stable": stability_map(self.vehicle, **self.coords).stable}
-        found = sweep(self.vehicle, **self.coords)
+            return {"stable": stability_map(self.vehicle, **ranges).stable}
+        found = sweep(self.vehicle, **ranges)
         return {
             "stable": found.stable,
             "unstable": found.unstable,
@@ -114,7 +113,7 @@ class Job:
     def units(self) -> dict[str, dict[str, str]]:
         """Return the units of the dimensions, as attributes; a dimension that counts has none."""
         named = {name: {"units": unit_of(self.vehicle, name)} for name in self.coords}
-        return {**named, **dict.fromkeys(self.further(), {})}
+        return {**named, **{name: {} for name in self.further()}}
 
 
 def job(vehicle: Model, kind: str, chunk: int | None, ranges: Mapping[str, Any]) -> Job:

@@ -106,7 +106,7 @@ class _Block:
     def coefficients(self, speeds: Array, rows: Any = slice(None)) -> tuple[Any, ...]:
         """Return the deciding coefficients at speeds of shape (rows,) or (rows, K)."""
         lead = (-1,) + (1,) * (np.ndim(speeds) - 1)
-        values = {k: v[rows].reshape(lead) if np.ndim(v) else v for k, v in self.values.items()}
+        values = {k: np.asarray(v)[rows].reshape(lead) if np.ndim(v) else v for k, v in self.values.items()}
         with np.errstate(all="ignore"):
             a = self.functions.coefficients([*{**values, self.speed: speeds * self.unit}.values()])
         return deciding(self.functions, a)

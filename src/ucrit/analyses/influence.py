@@ -1,6 +1,6 @@
-"""Which tolerances make a critical speed uncertain: Sobol indices (I. M. Sobol, Math. Comput. Simul. 55 (2001) 271-280).
+"""Which tolerances make a critical speed uncertain: Sobol indices.
 
-The estimators are those of SALib. Parameters that are correlated share one index, because variance cannot be divided
+I. M. Sobol, Mathematics and Computers in Simulation 55 (2001) 271-280. The estimators are those of SALib. Parameters that are correlated share one index, because variance cannot be divided
 between them; groups are independent of one another.
 """
 
@@ -72,9 +72,7 @@ class Influence(Tabular):
         )
 
 
-def influence(
-    vehicle: Model, samples: int, seed: int, limit: float, critical: Callable[[Array], Array]
-) -> Influence:
+def influence(vehicle: Model, samples: int, seed: int, limit: float, critical: Callable[[Array], Array]) -> Influence:
     """Estimate Sobol indices by Saltelli's design.
 
     Parameters
@@ -97,11 +95,12 @@ def influence(
     tolerances = vehicle.info.tolerances
     groups = tuple(tolerances.groups())
     labels = {name: f"g{i}" for i, group in enumerate(groups) for name in group}
+    grouped = [labels[name] for name in tolerances.names]
     problem = {
         "num_vars": len(tolerances),
         "names": list(tolerances.names),
         "bounds": [[0.0, 1.0]] * len(tolerances),
-        "groups": [labels[name] for name in tolerances.names],
+        "groups": grouped,
     }
     points = sample.sample(problem, samples, calc_second_order=False, seed=seed)
     speeds = critical(points)
@@ -114,6 +113,6 @@ def influence(
         )
     # SALib standardises by the mean, which is a constant shift and scale: indices do not change.
     found = analyze.analyze(problem, speeds, calc_second_order=False, seed=seed)
-    order = [list(dict.fromkeys(problem["groups"])).index(f"g{i}") for i in range(len(groups))]
+    order = [list(dict.fromkeys(grouped)).index(f"g{i}") for i in range(len(groups))]
     S1, S1e, ST, STe = (np.asarray(found[key], dtype=float)[order] for key in ("S1", "S1_conf", "ST", "ST_conf"))
     return Influence(vehicle, groups, S1, ST, S1e, STe, cut)

@@ -12,7 +12,7 @@ from .wrap import number
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from ..analyses.certify import Certificate
+    from ..analyses.certificate import Certificate
     from ..analyses.uncertainty import Uncertainty
 
 SHARES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)

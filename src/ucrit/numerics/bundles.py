@@ -81,6 +81,6 @@ def real_parts(p: Array) -> Array:
     companion[:, np.arange(1, degree), np.arange(degree - 1)] = 1.0
     with np.errstate(all="ignore"):
         companion[:, :, -1] = -p[:, :-1] / lead[:, None]
-    good = np.isfinite(companion).all(axis=(1, 2))
+    good: NDArray[np.bool_] = np.asarray(np.isfinite(companion).all(axis=(1, 2)))
     roots = np.linalg.eigvals(np.where(good[:, None, None], companion, 0.0)).real
     return np.asarray(np.where(good[:, None] & (roots > 0), roots, np.inf))

@@ -222,7 +222,9 @@ class Proved:
         def turn(a: Pair) -> Pair:
             return np.where(sign > 0, a[0], -a[1]), np.where(sign > 0, a[1], -a[0])
 
-        return Proved(turn(self.ends), turn(self.centre), None if self.slopes is None else turn(self.slopes), self.reach)
+        return Proved(
+            turn(self.ends), turn(self.centre), None if self.slopes is None else turn(self.slopes), self.reach
+        )
 
     def __lt__(self, other: Any) -> bool:
         raise NotImplementedError("a comparison")

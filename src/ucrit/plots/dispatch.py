@@ -14,13 +14,13 @@ from .uncertainty import plot_uncertainty
 
 
 def plot(result: Any, *, figure: Any = None) -> Any:
-    """Draw a result: an analysis, a root locus, modes, remedies, a stability map, uncertainty, lines of moment against lift.
+    """Draw a result: an analysis, a root locus, modes, remedies, a stability map, uncertainty, lines of moment.
 
     Parameters
     ----------
     result
-        What `ucrit.analyze`, `locus`, `modes`, `remedies`, `stability_map`, `uncertainty` or `moment_line` returned. Of an
-        analysis the root locus and the damping against speed are drawn, of a vehicle without speed its modes.
+        What `ucrit.analyze`, `locus`, `modes`, `remedies`, `stability_map`, `uncertainty` or `moment_line` returned.
+        Of an analysis the root locus and the damping against speed are drawn, of a vehicle without speed its modes.
     figure
         Figure to draw into; a new one by default.
 

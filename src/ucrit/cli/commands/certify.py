@@ -24,9 +24,7 @@ UNDECIDED = 1
 )
 @click.option("--boxes", type=int, default=100_000, show_default=True, help="Boxes to look at before giving up.")
 @click.option("--fail-if-unstable", is_flag=True, help="Leave with status 3 if refuted, 1 if undecided.")
-def command(
-    vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], boxes: int, fail_if_unstable: bool
-) -> int:
+def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], boxes: int, fail_if_unstable: bool) -> int:
     """Prove that VEHICLE is stable for every value in the ranges, or find values for which it is not.
 
     The proof holds for all real numbers in the region: it is computed with intervals that are rounded outward, and

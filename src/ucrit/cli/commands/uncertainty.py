@@ -24,7 +24,10 @@ from ..progress import progress_bar
 @click.option("--seed", type=int, default=0, show_default=True, help="The same seed gives the same result.")
 @click.option("--indices", is_flag=True, help="Tell which tolerances matter, by Sobol indices (needs SALib).")
 @click.option(
-    "-o", "--output", metavar="FILE", help="Write the vehicles drawn (.csv .nc .json .mat) or a picture (.svg .png .pdf)."
+    "-o",
+    "--output",
+    metavar="FILE",
+    help="Write the vehicles drawn (.csv .nc .json .mat) or a picture (.svg .png .pdf).",
 )
 def command(
     vehicle: str,
