@@ -133,7 +133,8 @@ def test_correlated_parameters_share_an_index_and_endless_speeds_are_cut():
     assert ranked.groups == (("m",), ("a",), ("C_f", "C_r"))
     assert ranked.cut > found.quantile(0.9)
     assert ranked.names[np.argmax(ranked.total)] == "C_f, C_r"
-    limited = uncertainty(CAR, samples=1024, indices=True, upto=60).influence
+    limited, again = (uncertainty(CAR, samples=1024, indices=True, upto=60).influence for _ in range(2))
+    np.testing.assert_array_equal(limited.total_error, again.total_error)
     assert limited.cut == 60
     assert np.all(limited.first <= limited.total + limited.total_error + limited.first_error)
     assert str(limited).count("%") == 6
@@ -178,6 +179,7 @@ def test_results_are_tables_and_drawings():
         (CAR, {"samples": 1000}, "samples must be a power of two, got 1000; did you mean 512 or 1024?"),
         (CAR, {"samples": 1}, "samples must be a whole number from 2 to"),
         (CAR, {"samples": 2.5}, "samples must be a whole number"),
+        (CAR, {"seed": -1}, "seed must be a whole number from 0 to"),
         (CAR, {"upto": 0}, "upto must be a speed other than 0 m/s"),
         (CAR, {"upto": "3 kg"}, "upto is measured in m/s"),
         (CAR.with_(a=2), {}, "centre of mass to front axle a = 2 m lies outside its tolerance, 1.2 to 1.3 m"),

@@ -97,8 +97,8 @@ class Certificate(Tabular):
             return f"{word} for {where}: proved with {self.boxes} box{'es' if self.boxes > 1 else ''}"
         return (
             f"not decided for {where}: {_percent(self.proved_share)} of the volume is proved stable, no "
-            f"counter-example was found, {len(self.undecided)} boxes are left after {self.boxes}; allow more boxes or take a smaller "
-            "region"
+            f"counter-example was found, {len(self.undecided)} of the boxes are left after {self.boxes}; "
+            "allow more boxes or take a smaller region"
         )
 
     def table(self) -> Table:

@@ -1,7 +1,8 @@
 """Which tolerances make a critical speed uncertain: Sobol indices.
 
-I. M. Sobol, Mathematics and Computers in Simulation 55 (2001) 271-280. The estimators are those of SALib. Parameters that are correlated share one index, because variance cannot be divided
-between them; groups are independent of one another.
+They are those of I. M. Sobol (Mathematics and Computers in Simulation 55 (2001) 271-280), as SALib estimates them.
+Parameters that are correlated share one index, because variance cannot be divided between them; groups are independent
+of one another.
 """
 
 from __future__ import annotations
@@ -111,8 +112,7 @@ def influence(vehicle: Model, samples: int, seed: int, limit: float, critical: C
         raise UcritError(
             f"{type(vehicle).model_id()}: the critical speed is the same within all tolerances, nothing has influence"
         )
-    # SALib standardises by the mean, which is a constant shift and scale: indices do not change.
-    found = analyze.analyze(problem, speeds, calc_second_order=False, seed=seed)
+    found = analyze.analyze(problem, speeds, calc_second_order=False, seed=seed + 1)  # 0 would be none
     order = [list(dict.fromkeys(grouped)).index(f"g{i}") for i in range(len(groups))]
     S1, S1e, ST, STe = (np.asarray(found[key], dtype=float)[order] for key in ("S1", "S1_conf", "ST", "ST_conf"))
     return Influence(vehicle, groups, S1, ST, S1e, STe, cut)

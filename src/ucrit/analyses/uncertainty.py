@@ -194,6 +194,8 @@ def uncertainty(
         raise UcritError(f"{type(vehicle).model_id()} has no speed, so that it has no critical speed either")
     names = toleranced(vehicle)
     check_count(samples)
+    if isinstance(seed, bool) or not isinstance(seed, int) or not 0 <= seed < 2**32 - 1:
+        raise UcritError(f"seed must be a whole number from 0 to {2**32 - 2}, got {seed!r}")
     limit = np.inf if upto is None else abs(to_si(upto, "m/s", "upto"))
     if not limit > 0:
         raise UcritError(f"upto must be a speed other than 0 m/s, got {upto}")
