@@ -71,8 +71,8 @@ def certify(
     Examples
     --------
     >>> from ucrit import certify, load
-    >>> print(certify(load("caravan"), {"m": (1100, 1300), "U": "36:72 km/h"}))
-    stable for every m from 1100 to 1300 kg and every U from 10 to 20 m/s (72 km/h): proved with 1 box
+    >>> print(certify(load("caravan"), {"m": (1150, 1250), "U": "36:54 km/h"}))
+    stable for every m from 1150 to 1250 kg and every U from 10 to 15 m/s (54 km/h): proved with 3 boxes
     >>> certify(load("caravan"), {"U": (10, 30)}).state
     'refuted'
     """

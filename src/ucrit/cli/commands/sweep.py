@@ -49,7 +49,7 @@ def command(
       ucrit sweep caravan "U=20:130:12 km/h"
       ucrit sweep caravan m=1000:1500:50 "U=10:130:60 km/h" -o caravan.nc
       ucrit sweep caravan a=1.5:4:26 --set "m=1.4 t" -o caravan.csv
-      ucrit sweep caravan m=800:2000:9999 U=5:45:9999 -o large.zarr
+      ucrit sweep caravan m=800:2000:40 U=5:45:50 -o large.zarr
 
     A Zarr store is written piece by piece, may be larger than memory, and is gone on with after an interruption.
 
