@@ -66,7 +66,7 @@ OPERATIONS = (
     lambda x, y: x - y,
     lambda x, y: x * y,
     lambda x, y: x / (y * y + 1),
-    lambda x, y: 3 - x * 0.5,
+    lambda x, y: 3 - x * Fraction(1, 3),
     lambda x, y: x**3 * y,
     lambda x, y: 1 / (x**2 + 2),
 )
