@@ -107,12 +107,36 @@ def find_controller(name: str) -> type[Controller]:
 
 
 def controlled(model: type[Model], controllers: tuple[str, ...]) -> type[Model]:
-    """Return a model under the control of controllers of the catalogue."""
+    """Return a model under the control of controllers: names of the catalogue, or makers with arguments.
+
+    Makers are those of `ucrit.control.MAKERS`: ``"lag(delta_f)"``, ``"state-feedback(delta_f, delta_r)"``. Each is made
+    for the model and the controllers before it.
+    """
     if not controllers:
         return model
     from .control import closed
 
-    return closed(model, *map(find_controller, controllers))
+    for name in controllers:
+        model = closed(model, _controller(name, model))
+    return model
+
+
+def _controller(name: str, model: type[Model]) -> type[Controller]:
+    """Return a controller by name, or the one that a maker makes for a model."""
+    maker, bracket, rest = name.partition("(")
+    if not bracket:
+        return find_controller(name)
+    from .control import MAKERS
+
+    key = maker.strip().replace("_", "-")
+    if key not in MAKERS or not rest.rstrip().endswith(")"):
+        known = ", ".join(f"{each}(...)" for each in MAKERS)
+        raise UcritError(f"there is no controller '{name}'{near_match(key, MAKERS)}; made for a model are {known}")
+    arguments = [word.strip() for word in rest.rstrip()[:-1].split(",") if word.strip()]
+    try:
+        return MAKERS[key](model, *arguments)
+    except TypeError:
+        raise UcritError(f"controller '{name}': {len(arguments)} arguments are not what {key} takes") from None
 
 
 def models_in(module: ModuleType) -> list[type[Model]]:

@@ -1,12 +1,26 @@
 """Control: a vehicle and a controller are a vehicle again."""
 
+from collections.abc import Callable
+
 from .actuators import delay, lag, rate_limit, saturation
 from .closed import broken, close, closed
 from .controller import Controller
 from .design import kalman, lqr, observer, place
-from .feedback import observing, state_feedback
+from .feedback import estimated_feedback, observing, state_feedback
+
+MAKERS: dict[str, Callable[..., type[Controller]]] = {
+    "lag": lag,
+    "rate-limit": rate_limit,
+    "saturation": saturation,
+    "delay": delay,
+    "state-feedback": state_feedback,
+    "estimated-state-feedback": estimated_feedback,
+    "observer": observing,
+}
+"""Controllers made for a model, by the names that vehicle files have for them."""
 
 __all__ = [
+    "MAKERS",
     "Controller",
     "broken",
     "close",

@@ -67,7 +67,8 @@ def gain_name(input: str, label: str) -> str:
 def _feedback(model: type[Model], inputs: tuple[str, ...], labels: tuple[str, ...], estimated: bool) -> type[Controller]:
     body: dict[str, Any] = {"drives": inputs, "_labels": labels, "_estimated": estimated}
     word = "estimated-state-feedback" if estimated else "state-feedback"
-    body |= {"_id": f"{word}({', '.join(inputs)})", "__doc__": StateFeedback.__doc__}
+    chosen = (*inputs, *(() if labels == tuple(state_names(model)) else labels))
+    body |= {"_id": f"{word}({', '.join(chosen)})", "__doc__": StateFeedback.__doc__}
     for name in inputs:
         for label in labels:
             unit = ratio(model.declaration.inputs[name].unit, state_unit(model, label))
@@ -89,7 +90,7 @@ def state_feedback(
     model
         The model or vehicle that it is for.
     inputs
-        Names of the inputs that are driven; they stay inputs, as demands.
+        Names of the inputs that are driven; they stay inputs, as demands. Names of states may stand after them.
     states
         States that are fed back (``theta'`` or ``theta_dot`` for a rate); all by default.
     estimated
@@ -116,11 +117,24 @@ def state_feedback(
     cls = model_of(model)
     if not inputs:
         raise UcritError(f"{cls.model_id()}: name at least one input, such as {', '.join(cls.declaration.inputs)}")
+    of = observed(cls)[0] if estimated else cls
+    listed = [name for name in inputs if name not in cls.declaration.inputs and name in _state_words(of)]
+    inputs = tuple(name for name in inputs if name not in listed)
     for name in inputs:
         input_of(cls, name)
-    of = observed(cls)[0] if estimated else cls
-    labels = tuple(state_names(of)) if states is None else checked_states(of, states)
+    chosen = [*(states or ()), *listed]
+    labels = checked_states(of, chosen) if chosen else tuple(state_names(of))
     return made(_feedback, of, tuple(inputs), labels, estimated)  # type: ignore[no-any-return]
+
+
+def _state_words(model: type[Model]) -> set[str]:
+    """Return all that states may be called."""
+    return {*state_names(model), *state_names(model).values()}
+
+
+def estimated_feedback(model: type[Model] | Model, *inputs: str) -> type[Controller]:
+    """Return `state_feedback` of what the observer that was added last estimates."""
+    return state_feedback(model, *inputs, estimated=True)
 
 
 class Observer(Controller):
@@ -201,7 +215,8 @@ def _observer(model: type[Model], measured: tuple[str, ...], own: tuple[str, ...
     formulas = dict(zip(model.declaration.outputs, traced.outputs, strict=True))
     implicit = tuple(name for name in measured if name in formulas and formulas[name].free_symbols & highest)
     body: dict[str, Any] = {"_model": model, "_measured": measured, "_own": own, "_implicit": implicit}
-    body |= {"_id": f"observer({', '.join(measured)})", "__doc__": Observer.__doc__}
+    words = (*measured, *(f"own {name}" for name in own))
+    body |= {"_id": f"observer({', '.join(words)})", "__doc__": Observer.__doc__}
     body |= own_parameters(model, own, HAT) | own_states(model, HAT, "estimated")
     for label in state_names(model):
         for name in measured:
@@ -223,7 +238,7 @@ def observing(
     model
         The model or vehicle that it is for.
     measured
-        States or outputs, by name, that sensors give.
+        States or outputs, by name, that sensors give; ``"own m"`` is another way to say ``own=("m",)``.
     own
         Parameters that the observer has values of its own for, ``<name>_hat``: the vehicle's may then change while the
         observer does not know. The others are shared, the speed for example.
@@ -240,8 +255,9 @@ def observing(
         If there is no such state, output or parameter, or the model has constraints.
     """
     cls = model_of(model)
-    names = checked_measured(cls, measured)
-    return made(_observer, cls, names, tuple(own))  # type: ignore[no-any-return]
+    own = (*own, *(name.removeprefix("own ").strip() for name in measured if name.startswith("own ")))
+    names = checked_measured(cls, [name for name in measured if not name.startswith("own ")])
+    return made(_observer, cls, names, own)  # type: ignore[no-any-return]
 
 
 def observed(model: type[Model]) -> tuple[type[Model], type[Observer]]:
