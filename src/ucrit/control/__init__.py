@@ -7,6 +7,7 @@ from .closed import broken, close, closed
 from .controller import Controller
 from .design import kalman, lqr, observer, place
 from .feedback import estimated_feedback, observing, state_feedback
+from .sliding import reaching_time, slide, sliding, sliding_eigenvalues
 
 MAKERS: dict[str, Callable[..., type[Controller]]] = {
     "lag": lag,
@@ -16,6 +17,7 @@ MAKERS: dict[str, Callable[..., type[Controller]]] = {
     "state-feedback": state_feedback,
     "estimated-state-feedback": estimated_feedback,
     "observer": observing,
+    "sliding-mode": sliding,
 }
 """Controllers made for a model, by the names that vehicle files have for them."""
 
@@ -33,6 +35,10 @@ __all__ = [
     "observing",
     "place",
     "rate_limit",
+    "reaching_time",
     "saturation",
+    "slide",
+    "sliding",
+    "sliding_eigenvalues",
     "state_feedback",
 ]
