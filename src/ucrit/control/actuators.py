@@ -91,11 +91,11 @@ class _Delay(Actuator):
 
     _order = 1
 
-    def law(self, x: Any, dx: Any, u0: Any) -> Any:
+    def law(self, x: Any, u: Any, u0: Any) -> Any:
         n = self._order
-        back = sum((-1) ** k * self._weight(k) * getattr(x, self._name(k)) for k in range(n))
-        top = (-1) ** n * self._weight(n) * self.given("T") * getattr(dx, self._name(n - 1))
-        return self.reached(u0, back + top)
+        kept = [self._weight(k) * getattr(x, self._name(k)) for k in range(n)]
+        newest = self.demand(u, u0) - sum(kept)  # the highest derivative's term, which must not enter the vehicle
+        return self.reached(u0, sum((-1) ** k * term for k, term in enumerate(kept)) + (-1) ** n * newest)
 
     def equations(self, x: Any, dx: Any, u: Any, u0: Any) -> Any:
         n, T = self._order, self.given("T")

@@ -146,6 +146,34 @@ def copied(
     )
 
 
+def rates(model: type[Model], suffix: str, parameters: Mapping[str, Any], x: Any, inputs: Mapping[str, Any]) -> Any:
+    """Return the rates of a copy's states by label, as formulas of states and inputs (not of other rates)."""
+    traced, highest = _solved(model)
+    values = {symbol: parameters[name] for name, symbol in traced.parameters.items()}
+    found = {}
+    for chain in traced.q:
+        for k in range(len(chain) - 1):
+            values[chain[k]] = getattr(x, f"{chain[0].name}{'_dot' * k}_{suffix}")
+    for symbol in traced.u:
+        values[symbol] = inputs.get(symbol.name, traced.basic.get(symbol, 0))
+    for chain, solved in zip(traced.q, highest, strict=True):
+        label = chain[0].name
+        for k in range(len(chain) - 1):
+            found[label + "'" * k] = solved if k + 2 == len(chain) else chain[k + 1]
+    return {label: expression.xreplace(values) for label, expression in found.items()}
+
+
+def _solve(model: type[Model]) -> Any:
+    from ..core.nonlinear import solve_for_highest
+
+    traced = traced_once(model, None)
+    solved = solve_for_highest(traced)
+    return traced, list(solved.M.LUsolve(solved.f))
+
+
+_solved: Any = cache(_solve)
+
+
 def bound_parameters(instance: Any, model: type[Model], own: Sequence[str], suffix: str) -> dict[str, Any]:
     """Return the values that a copy takes for the model's parameters."""
     return {n: instance.__dict__[f"{n}_{suffix}" if n in own else n] for n in model.declaration.parameters}

@@ -32,6 +32,7 @@ from .copies import (
     own_parameters,
     own_states,
     parameter_values,
+    rates,
     ratio,
     state_meaning,
     state_names,
@@ -103,11 +104,18 @@ class SlidingMode(Controller):
                 given = getattr(u, other) if other in u.__dict__ else y.__dict__[other]
                 drift += along(B[:, k]) * (given - getattr(u0, other))
         if self._reference is not None:
-            drift -= sum(self._weight(label) * getattr(dx, f"{_plain(label)}_{DESIRED}") for label in self._surface)
+            wanted = rates(self._reference, DESIRED, *self._followed(x, u))
+            drift -= sum(self._weight(label) * wanted[label] for label in self._surface)
         S = self._error(x, dx, u)
         reach = sign(S) if self._signum else maximum(-1, minimum(1, S / self.__dict__["phi_S"]))
         drift += self.__dict__["q_S"] * S + self.__dict__["alpha_S"] * reach
         return {name: getattr(u0, name) - drift / along(B[:, inputs.index(name)])}
+
+    def _followed(self, x: Any, u: Any) -> tuple[dict[str, Any], Any, dict[str, Any]]:
+        """Return parameters, states and inputs of the reference."""
+        assert self._reference is not None
+        values = bound_parameters(self, self._reference, self._reference_own, DESIRED)
+        return values, x, {name: getattr(u, name) for name in self._reference.declaration.inputs if name in u.__dict__}
 
     def _backward(self) -> bool:
         speed = self._model.declaration.speed
@@ -124,9 +132,8 @@ class FollowingSlidingMode(SlidingMode):
 
     def equations(self, x: Any, dx: Any, u: Any) -> Any:
         assert self._reference is not None
-        values = bound_parameters(self, self._reference, self._reference_own, DESIRED)
-        shared = {name: getattr(u, name) for name in self._reference.declaration.inputs if name in u.__dict__}
-        return copied(self._reference, DESIRED, values, x, dx, shared).residuals
+        values, _, demands = self._followed(x, u)
+        return copied(self._reference, DESIRED, values, x, dx, demands).residuals
 
     def basic_motion(self) -> dict[str, dict[str, Any]]:
         """Return the basic motion: the reference's."""
