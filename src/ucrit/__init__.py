@@ -14,15 +14,18 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.convert import to_scipy as to_scipy
     from .analyses.criteria import criteria as criteria
     from .analyses.critical import critical as critical
+    from .analyses.delays import simulate_delayed as simulate_delayed
     from .analyses.forms import Descriptor as Descriptor
     from .analyses.forms import NthOrder as NthOrder
     from .analyses.forms import SecondOrder as SecondOrder
     from .analyses.forms import StateSpace as StateSpace
     from .analyses.forms import forms as forms
+    from .analyses.laws import describe_controller as describe_controller
     from .analyses.limits import limit as limit
     from .analyses.listing import listing as list  # noqa: F401
     from .analyses.listing import template as new  # noqa: F401
     from .analyses.locus import locus as locus
+    from .analyses.margins import margins as margins
     from .analyses.modes import modes as modes
     from .analyses.pitching import moment_line as moment_line
     from .analyses.pitching import static_margin as static_margin
@@ -106,6 +109,9 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "static_margin": "analyses.pitching",
     "routh": "analyses.routh",
     "simulate": "analyses.simulate",
+    "margins": "analyses.margins",
+    "simulate_delayed": "analyses.delays",
+    "describe_controller": "analyses.laws",
     "static_stability": "analyses.static",
     "steady_turn": "analyses.steady",
     "transfer": "analyses.transfer",

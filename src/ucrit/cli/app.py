@@ -19,6 +19,7 @@ COMMANDS = {
     "show": "show",
     "new": "new",
     "sweep": "sweep",
+    "margins": "margins",
     "routh": "routh",
     "check": "check",
     "completion": "completion",

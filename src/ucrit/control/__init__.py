@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from .actuators import delay, lag, rate_limit, saturation
-from .closed import broken, close, closed
+from .closed import broken, close, closed, driven
 from .controller import Controller
 from .design import kalman, lqr, observer, place
 from .feedback import estimated_feedback, observing, state_feedback
@@ -28,6 +28,7 @@ __all__ = [
     "close",
     "closed",
     "delay",
+    "driven",
     "kalman",
     "lag",
     "lqr",

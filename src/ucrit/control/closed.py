@@ -78,14 +78,10 @@ def broken(model: type[Model], input: str) -> type[Model]:
     UcritError
         If no controller drives the input.
     """
-    chain: list[type[Controller]] = []
-    plant: Any = model
-    while isinstance(plant, type) and issubclass(plant, ClosedLoop):
-        chain.insert(0, plant._controller)
-        plant = plant._plant
-    driven = [name for controller in chain for name in controller.drives]
-    if input not in driven:
-        known = ", ".join(dict.fromkeys(driven)) or "none"
+    plant, chain = _chain(model)
+    known_names = [name for controller in chain for name in controller.drives]
+    if input not in known_names:
+        known = ", ".join(dict.fromkeys(known_names)) or "none"
         raise UcritError(f"{model.model_id()}: no controller drives '{input}'; driven inputs: {known}")
     cut = ""
     for controller in chain:
@@ -93,6 +89,22 @@ def broken(model: type[Model], input: str) -> type[Model]:
         plant = made(_close, plant, controller, found) if found else made(_close, plant, controller)
         cut = cut or found
     return plant  # type: ignore[no-any-return]
+
+
+def driven(model: type[Model]) -> list[str]:
+    """Return the inputs of the vehicle itself, without controllers, that are driven."""
+    plant, chain = _chain(model)
+    names = dict.fromkeys(name for controller in chain for name in controller.drives)
+    return [name for name in names if name in plant.declaration.inputs]
+
+
+def _chain(model: type[Model]) -> tuple[Any, list[type[Controller]]]:
+    """Return the vehicle's own model and its controllers, the first one closed first."""
+    chain: list[type[Controller]] = []
+    while issubclass(model, ClosedLoop):
+        chain.insert(0, model._controller)
+        model = model._plant
+    return model, chain
 
 
 def _close(plant: type[Model], controller: type[Controller], cut: str = "") -> type[Model]:
