@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 import re
 import tomllib
@@ -80,8 +81,16 @@ def listing(kind: str | None = None) -> Listing:
     wanted = KINDS if kind is None else (kind,)
     models = tuple(_model(name) for name in model_names()) if "models" in wanted else ()
     vehicles = sorted(map(_vehicle, vehicle_names()), key=lambda e: (e.model, e.name)) if "vehicles" in wanted else ()
-    controllers = tuple(_controller(name) for name in controller_names()) if "controllers" in wanted else ()
+    controllers = (*map(_controller, controller_names()), *_makers()) if "controllers" in wanted else ()
     return Listing(models, tuple(vehicles), controllers)
+
+
+def _makers() -> list[Entry]:
+    """Controllers that are made for a model, with arguments."""
+    from ..control import MAKERS
+
+    lines = {name: (inspect.getdoc(maker) or "").splitlines()[0] for name, maker in MAKERS.items()}
+    return [Entry(f"{name}(...)", line.removeprefix("Return ").replace("`", "")) for name, line in lines.items()]
 
 
 def _controller(name: str) -> Entry:

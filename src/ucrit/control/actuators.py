@@ -122,7 +122,7 @@ def _make(base: type[Actuator], text: str, input: str, unit: str, meaning: str, 
     body: dict[str, Any] = {"drives": (input,), "_input": input, "_id": text, "_order": order, "__doc__": base.__doc__}
     if base in (_Lag, _RateLimit):
         body[f"tau_{input}"] = Parameter("s", f"time constant of the actuator of the {meaning}", above=0)
-        body[f"{input}_lagged"] = Variable(unit, f"{meaning} beyond the basic motion")
+        body[f"{input}_lagged"] = Variable(unit, f"{meaning} beyond the basic motion", motion="actuator")
     if base is _RateLimit:
         body[f"rate_{input}"] = Parameter(_rate_unit(unit), f"largest rate of the {meaning}", above=0)
     if base is _Saturation:
@@ -130,7 +130,7 @@ def _make(base: type[Actuator], text: str, input: str, unit: str, meaning: str, 
     if base is _Delay:
         body[f"T_{input}"] = Parameter("s", f"delay of the {meaning}", above=0)
         for k in range(order):
-            body[f"{input}_delayed_{k + 1}"] = Variable(unit, f"state {k + 1} of the delay of the {meaning}")
+            body[f"{input}_delayed_{k + 1}"] = Variable(unit, f"state {k + 1} of the delay of the {meaning}", motion="delay")
     return type(base.__name__.lstrip("_") + "Of" + input.title().replace("_", ""), (base,), body)
 
 

@@ -81,7 +81,11 @@ def own_states(model: type[Model], suffix: str, words: str) -> dict[str, Quantit
     """Return a state for every state of the model."""
     refuse_constrained(model)
     return {
-        f"{name}_{suffix}": Variable(state_unit(model, label), f"{state_meaning(model, label)}, {words}")
+        f"{name}_{suffix}": Variable(
+            state_unit(model, label),
+            f"{state_meaning(model, label)}, {words}",
+            motion=f"{words} {model.declaration.variables[label.rstrip(chr(39))].motion}".strip(),
+        )
         for label, name in state_names(model).items()
     }
 

@@ -16,7 +16,7 @@ class LeanByRearSteering(Controller):
     G: float = param("1", "rear steer angle per lasting error of the lean angle")
     T_1: float = param("s", "time constant that leads")
     T_2: float = param("s", "time constant that lags")
-    e_slow = state("rad", "error of the lean angle after the lag")
+    e_slow = state("rad", "error of the lean angle after the lag", motion="compensator")
     theta_d = input("rad", "desired lean angle")
 
     def law(self, x, u):
