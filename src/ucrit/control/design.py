@@ -106,7 +106,14 @@ def lqr(vehicle: Model, inputs: str | Sequence[str], Q: Any, R: Any, *, estimate
     return _fed_back(vehicle, names, labels, K, estimated)
 
 
-def observer(vehicle: Model, measured: str | Sequence[str], poles: Any, *, own: Sequence[str] = ()) -> Model:
+def observer(
+    vehicle: Model,
+    measured: str | Sequence[str],
+    poles: Any,
+    *,
+    own: Sequence[str] = (),
+    unknown: Sequence[str] = (),
+) -> Model:
     """Return the vehicle with an observer, whose errors decay by the poles asked for.
 
     Parameters
@@ -119,6 +126,8 @@ def observer(vehicle: Model, measured: str | Sequence[str], poles: Any, *, own: 
         As many as there are states [1/s], complex ones with their conjugates.
     own
         Parameters that the observer has values of its own for; see `observing`.
+    unknown
+        Inputs that it does not know: disturbances.
 
     Returns
     -------
@@ -142,11 +151,17 @@ def observer(vehicle: Model, measured: str | Sequence[str], poles: Any, *, own: 
     names, A, C, labels = _seen(vehicle, measured)
     doing = f"{' and '.join(names)} do not show"
     L = place_gains(A.T, C.T, checked_poles(poles, len(A)), labels, doing).T
-    return _with_observer(vehicle, names, labels, L, own)
+    return _with_observer(vehicle, names, labels, L, own, unknown)
 
 
 def kalman(
-    vehicle: Model, measured: str | Sequence[str], process: Any, noise: Any, *, own: Sequence[str] = ()
+    vehicle: Model,
+    measured: str | Sequence[str],
+    process: Any,
+    noise: Any,
+    *,
+    own: Sequence[str] = (),
+    unknown: Sequence[str] = (),
 ) -> Model:
     """Return the vehicle with the observer of least variance; with `lqr` of its estimates it makes an LQG controller.
 
@@ -162,6 +177,8 @@ def kalman(
         That of the sensors' noise: a matrix, its diagonal, one number, or numbers by measured quantity.
     own
         Parameters that the observer has values of its own for; see `observing`.
+    unknown
+        Inputs that it does not know: disturbances.
 
     Returns
     -------
@@ -176,7 +193,7 @@ def kalman(
     names, A, C, labels = _seen(vehicle, measured)
     W, V = weights(process, labels, "process", False), weights(noise, names, "noise", True)
     L = regulator_gains(A.T, C.T, W, V, labels, f"{' and '.join(names)} do not show").T
-    return _with_observer(vehicle, names, labels, L, own)
+    return _with_observer(vehicle, names, labels, L, own, unknown)
 
 
 def _wanted(vehicle: Model, inputs: Any, estimated: bool) -> tuple[tuple[str, ...], Array, Array, list[str]]:
@@ -217,7 +234,9 @@ def _fed_back(vehicle: Model, names: Sequence[str], labels: list[str], K: Array,
     return close(vehicle, law, **gains)
 
 
-def _with_observer(vehicle: Model, names: Sequence[str], labels: list[str], L: Array, own: Sequence[str]) -> Model:
-    law = observing(vehicle, *names, own=own)
+def _with_observer(
+    vehicle: Model, names: Sequence[str], labels: list[str], L: Array, own: Sequence[str], unknown: Sequence[str]
+) -> Model:
+    law = observing(vehicle, *names, own=own, unknown=unknown)
     gains = {observer_gain(s, n): float(L[i, j]) for i, s in enumerate(labels) for j, n in enumerate(names)}
     return close(vehicle, law, **gains, **parameter_values(vehicle, own, HAT))

@@ -143,6 +143,7 @@ class Observer(Controller):
     _model: type[Model] = Model
     _measured: tuple[str, ...] = ()
     _own: tuple[str, ...] = ()
+    _unknown: tuple[str, ...] = ()
     _implicit: tuple[str, ...] = ()
     _id = ""
 
@@ -175,7 +176,7 @@ class Observer(Controller):
 
     def _copy(self, x: Any, dx: Any, u: Any, injected: dict[str, Any]) -> Any:
         parameters = bound_parameters(self, self._model, self._own, HAT)
-        inputs = {name: getattr(u, name) for name in self._model.declaration.inputs}
+        inputs = {name: getattr(u, name) for name in self._model.declaration.inputs if name not in self._unknown}
         return copied(self._model, HAT, parameters, x, dx, inputs, injected)
 
     def basic_motion(self) -> dict[str, dict[str, Any]]:
@@ -208,14 +209,17 @@ def checked_measured(model: type[Model], measured: Sequence[str]) -> tuple[str, 
     return tuple(name if name in outputs else checked_states(model, [name])[0] for name in measured)
 
 
-def _observer(model: type[Model], measured: tuple[str, ...], own: tuple[str, ...]) -> type[Observer]:
+def _observer(
+    model: type[Model], measured: tuple[str, ...], own: tuple[str, ...], unknown: tuple[str, ...]
+) -> type[Observer]:
     refuse_constrained(model)
     traced = traced_once(model, None)
     highest = {chain[-1] for chain in traced.q}
     formulas = dict(zip(model.declaration.outputs, traced.outputs, strict=True))
     implicit = tuple(name for name in measured if name in formulas and formulas[name].free_symbols & highest)
     body: dict[str, Any] = {"_model": model, "_measured": measured, "_own": own, "_implicit": implicit}
-    words = (*measured, *(f"own {name}" for name in own))
+    body["_unknown"] = unknown
+    words = (*measured, *(f"own {name}" for name in own), *(f"unknown {name}" for name in unknown))
     body |= {"_id": f"observer({', '.join(words)})", "__doc__": Observer.__doc__}
     body |= own_parameters(model, own, HAT) | own_states(model, HAT, "estimated")
     for label in state_names(model):
@@ -229,7 +233,7 @@ def _observer(model: type[Model], measured: tuple[str, ...], own: tuple[str, ...
 
 
 def observing(
-    model: type[Model] | Model, *measured: str, own: Sequence[str] = ()
+    model: type[Model] | Model, *measured: str, own: Sequence[str] = (), unknown: Sequence[str] = ()
 ) -> type[Observer]:
     """Return an observer: a copy of the model whose states follow by gains ``L_<state>_<measured>``.
 
@@ -242,6 +246,8 @@ def observing(
     own
         Parameters that the observer has values of its own for, ``<name>_hat``: the vehicle's may then change while the
         observer does not know. The others are shared, the speed for example.
+    unknown
+        Inputs that the observer does not know: disturbances; ``"unknown F_w"`` among what is measured says the same.
 
     Returns
     -------
@@ -256,8 +262,11 @@ def observing(
     """
     cls = model_of(model)
     own = (*own, *(name.removeprefix("own ").strip() for name in measured if name.startswith("own ")))
-    names = checked_measured(cls, [name for name in measured if not name.startswith("own ")])
-    return made(_observer, cls, names, own)  # type: ignore[no-any-return]
+    unknown = (*unknown, *(name.removeprefix("unknown ").strip() for name in measured if name.startswith("unknown ")))
+    for name in unknown:
+        input_of(cls, name)
+    names = checked_measured(cls, [name for name in measured if not name.startswith(("own ", "unknown "))])
+    return made(_observer, cls, names, own, unknown)  # type: ignore[no-any-return]
 
 
 def observed(model: type[Model]) -> tuple[type[Model], type[Observer]]:

@@ -84,7 +84,7 @@ class SlidingMode(Controller):
     def _weight(self, label: str) -> Any:
         return 1 if label == self._surface[0] else self.__dict__[f"c_{_plain(label)}"]
 
-    def law(self, x: Any, dx: Any, u: Any, y: Any, x0: Any, u0: Any) -> Any:
+    def law(self, x: Any, dx: Any, u: Any, x0: Any, u0: Any) -> Any:
         name = self.drives[0]
         labels, A, B, symbols = linear_once(self._model, -1 if self._backward() else 1)
         values = bound_parameters(self, self._model, self._own, KNOWN)
@@ -99,10 +99,6 @@ class SlidingMode(Controller):
             along(A[:, j]) * (self._state(label, x, dx) - (0 if "'" in label else getattr(x0, label)))
             for j, label in enumerate(labels)
         )
-        for k, other in enumerate(inputs):
-            if other != name:
-                given = getattr(u, other) if other in u.__dict__ else y.__dict__[other]
-                drift += along(B[:, k]) * (given - getattr(u0, other))
         if self._reference is not None:
             wanted = rates(self._reference, DESIRED, *self._followed(x, u))
             drift -= sum(self._weight(label) * wanted[label] for label in self._surface)
@@ -115,7 +111,7 @@ class SlidingMode(Controller):
         """Return parameters, states and inputs of the reference."""
         assert self._reference is not None
         values = bound_parameters(self, self._reference, self._reference_own, DESIRED)
-        return values, x, {name: getattr(u, name) for name in self._reference.declaration.inputs if name in u.__dict__}
+        return values, x, {name: getattr(u, name) for name in self.drives}
 
     def _backward(self) -> bool:
         speed = self._model.declaration.speed
@@ -201,7 +197,7 @@ def sliding(
     ----------
     model
         The model or vehicle that it is for. The law reckons with the vehicle itself, without actuators and observers
-        that were added to it.
+        that were added to it; inputs other than its own are disturbances that it does not know.
     input
         Name of the input that is driven.
     surface
@@ -237,6 +233,7 @@ def sliding(
     follows = None if reference is None else model_of(reference)
     if follows is not None:
         checked_states(follows, names)
+        input_of(follows, input)
     found: type[SlidingMode] = made(
         _sliding, cls, input, labels, follows, tuple(own), checked_states(cls, estimated), signum
     )
