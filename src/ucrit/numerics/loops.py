@@ -109,8 +109,9 @@ def loop_margins(n: Array, d: Array) -> LoopMargins:
     Parameters
     ----------
     n, d
-        Polynomials (..., k), ascending.
+        Polynomials (..., k), ascending; the degree of ``n`` is at most that of ``d``.
     """
+    n = _added(n, np.zeros(d.shape[-1]))
     with np.errstate(all="ignore"):
         down, up = _gains(n, d)
         phase, delay = _phases(n, d)
