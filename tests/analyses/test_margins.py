@@ -89,3 +89,25 @@ def test_no_margins_without_stability_or_limits():
     first_order = str(margins(place(CAR, "delta_r", [-40, -50]), "delta_r"))
     assert "to no limit" in first_order
     assert positive_roots(np.array([[1.0, 0.0], [-1.0, 1.0]])).tolist()[1] == [1.0]
+
+
+def test_the_loop_of_an_observer_is_that_of_the_compensator():
+    """Cut next to the vehicle, the observer knows the command, not what reaches the wheels."""
+    from ucrit.control import kalman
+    from ucrit.core.compiled import state_space
+
+    bare = load("motorcycle-lean")
+    seen = kalman(bare, "theta", {"p": 1e4}, 1e-4)
+    held = lqr(seen, "delta_r", {"theta": 1.0}, 1.0, estimated=True)
+    A, B, _, _ = state_space(bare)
+    b, c = B[:, 1:], np.array([[1.0, 0.0]])
+    K = np.array([[held.K_delta_r_theta, held.K_delta_r_p]])
+    L = np.array([[held.L_theta_theta], [held.L_p_theta]])
+    loop = control.ss(A - b @ K - L @ c, L, K, 0) * control.ss(A, b, c, 0)
+    _, phase, modulus, *_ = control.stability_margins(loop)
+    found = margins(held, "delta_r")
+    assert np.degrees(found.phase) == pytest.approx(abs(phase), abs=1e-3)
+    omega = np.logspace(-2, 4, 20001)
+    L_at = control.frequency_response(loop, omega).complex
+    assert found.disk == pytest.approx(2 / np.abs((1 - L_at) / (1 + L_at)).max(), rel=1e-3)
+    assert modulus < 0.8

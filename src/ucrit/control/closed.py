@@ -83,12 +83,39 @@ def broken(model: type[Model], input: str) -> type[Model]:
     if input not in known_names:
         known = ", ".join(dict.fromkeys(known_names)) or "none"
         raise UcritError(f"{model.model_id()}: no controller drives '{input}'; driven inputs: {known}")
-    cut = ""
+    cut = input in plant.declaration.inputs
+    if cut:
+        plant = made(_close, plant, _cut_of(plant, input))
     for controller in chain:
-        found = input if not cut and input in controller.drives else ""
-        plant = made(_close, plant, controller, found) if found else made(_close, plant, controller)
-        cut = cut or found
+        plant = made(_close, plant, controller)
+        if not cut and input in plant.declaration.inputs:  # an input that a controller brought: a desired value
+            plant, cut = made(_close, plant, _cut_of(plant, input)), True
     return plant  # type: ignore[no-any-return]
+
+
+class _Cut(Controller):
+    """Cut of the loop, next to the vehicle."""
+
+    through = True
+    _cut = ""
+
+    def law(self, u: Any) -> Any:
+        return {self._cut: getattr(u, f"{self._cut}_cut")}
+
+    def outputs(self, u: Any) -> Any:
+        return {f"{self._cut}_return": getattr(u, self._cut)}
+
+
+def _make_cut(input: str, unit: str, meaning: str) -> type[Controller]:
+    body: dict[str, Any] = {"drives": (input,), "_cut": input, "__doc__": _Cut.__doc__}
+    body[f"{input}_cut"] = Input(unit, f"{meaning} where the loop is cut")
+    body[f"{input}_return"] = Output(unit, f"{meaning} that comes back")
+    return type("Cut", (_Cut,), body)
+
+
+def _cut_of(plant: type[Model], input: str) -> type[Controller]:
+    quantity = plant.declaration.inputs[input]
+    return made(_make_cut, input, quantity.unit, quantity.meaning)  # type: ignore[no-any-return]
 
 
 def driven(model: type[Model]) -> list[str]:
@@ -107,7 +134,7 @@ def _chain(model: type[Model]) -> tuple[Any, list[type[Controller]]]:
     return model, chain
 
 
-def _close(plant: type[Model], controller: type[Controller], cut: str = "") -> type[Model]:
+def _close(plant: type[Model], controller: type[Controller]) -> type[Model]:
     """Make the class of the closed loop."""
     theirs, ours, where = plant.declaration, controller.declaration, controller.model_id()
     for name in controller.drives:
@@ -128,12 +155,8 @@ def _close(plant: type[Model], controller: type[Controller], cut: str = "") -> t
         unit, meaning = theirs.inputs[name].unit, theirs.inputs[name].meaning
         reaches.append((name, _free(f"{name}_actual", body) if controller.through else name))
         body[reaches[-1][1]] = Output(unit, f"{meaning} that is reached" if controller.through else meaning)
-    if cut:
-        unit, meaning = theirs.inputs[cut].unit, theirs.inputs[cut].meaning
-        body[f"{cut}_cut"] = Input(unit, f"{meaning} where the loop is cut")
-        body[f"{cut}_return"] = Output(unit, f"{meaning} that comes back")
     body |= {"_plant": plant, "_controller": controller, "__doc__": _title(plant, controller)}
-    body |= {"_reaches": tuple(reaches), "_cut": cut}
+    body |= {"_reaches": tuple(reaches)}
     body |= {"even": (*getattr(plant, "even", ()), *getattr(controller, "even", ()))}
     body |= {"mirror": getattr(plant, "mirror", True) and getattr(controller, "mirror", True)}
     return type(f"{plant.__name__}With{controller.__name__}", (ClosedLoop,), body)
@@ -159,7 +182,6 @@ class ClosedLoop(Model):
     _plant: type[Model]
     _controller: type[Controller]
     _reaches: tuple[tuple[str, str], ...]
-    _cut: str
 
     @classmethod
     def model_id(cls) -> str:
@@ -174,7 +196,7 @@ class ClosedLoop(Model):
 
     def closed_loop(self, q: Any, groups: Mapping[str, Names]) -> tuple[list[Any], list[Any]]:
         """Return the residuals of vehicle and controller, and the multipliers of the vehicle's constraints."""
-        plant, (driven, _) = self._traced(), self._driven(groups)
+        plant, driven = self._traced(), self._driven(groups)
         own = self._law()
         residuals = [self._inner(r).xreplace(driven) for r in plant.residuals]
         if hasattr(own, "equations"):
@@ -186,12 +208,10 @@ class ClosedLoop(Model):
     def outputs(self, x: Any, dx: Any, ddx: Any, u: Any) -> dict[str, Any]:
         """Return the vehicle's outputs, the driven inputs and the controller's outputs."""
         groups = {"x": x, "dx": dx, "ddx": ddx, "u": u}
-        plant, (driven, returned) = self._traced(), self._driven(groups)
+        plant, driven = self._traced(), self._driven(groups)
         own, names = self._law(), self._plant.declaration.outputs
         found = {name: self._inner(e).xreplace(driven) for name, e in zip(names, plant.outputs, strict=True)}
         found |= {name: driven[_reaching(given)] for given, name in self._reaches}
-        if self._cut:
-            found[f"{self._cut}_return"] = returned
         return {**found, **(call(own.outputs, self._seen(groups, driven)) if hasattr(own, "outputs") else {})}
 
     def basic_motion(self) -> dict[str, dict[str, Any]]:
@@ -203,8 +223,9 @@ class ClosedLoop(Model):
             if hasattr(instance, "basic_motion"):
                 for group, values in instance.basic_motion().items():
                     given.setdefault(group, {}).update(values)
-        if self._cut in given["u"]:
-            given["u"][f"{self._cut}_cut"] = given["u"][self._cut]
+        cut = getattr(self._controller, "_cut", None)
+        if cut in given["u"]:
+            given["u"][f"{cut}_cut"] = given["u"][cut]
         given["u"] = {name: value for name, value in given["u"].items() if name in declared.inputs}
         return given
 
@@ -227,8 +248,8 @@ class ClosedLoop(Model):
         plant = self._traced()
         return expression.xreplace({s: _reaching(s.name) for s in plant.u if s.name in self._controller.drives})
 
-    def _driven(self, groups: Mapping[str, Any]) -> tuple[dict[Any, Any], Any]:
-        """Return the symbols of the driven inputs with what the law puts in their place, and what comes back at a cut."""
+    def _driven(self, groups: Mapping[str, Any]) -> dict[Any, Any]:
+        """Return the symbols of the driven inputs with what the law puts in their place."""
         import sympy as sp
 
         drives = self._controller.drives
@@ -237,15 +258,12 @@ class ClosedLoop(Model):
             odd = ", ".join(sorted(set(given).symmetric_difference(drives)))
             raise ModelError(f"{self._controller.model_id()}: what the law returns and what it drives differ in {odd}")
         law = {_reaching(name): sp.sympify(value) for name, value in given.items()}
-        returned = law.get(_reaching(self._cut))
-        if self._cut:
-            law[_reaching(self._cut)] = getattr(groups["u"], f"{self._cut}_cut")
         if any(value.has(*law) for value in law.values()):
             solved = sp.solve([s - value for s, value in law.items()], list(law), dict=True)
             if len(solved) != 1:
                 raise ModelError(f"{self.model_id()}: the law and an output that it uses depend on one another")
             law = dict(solved[0])
-        return law, None if returned is None else returned.xreplace(law)
+        return law
 
     def _seen(self, groups: Mapping[str, Any], driven: Mapping[Any, Any]) -> dict[str, Any]:
         """Return the groups that a law may ask for."""
