@@ -5,13 +5,13 @@ import json
 import subprocess
 import sys
 
-import control
 import numpy as np
 import pytest
 import xarray
 from scipy.io import loadmat
 from scipy.signal import StateSpace
 
+import control
 from ucrit import UcritError, critical, load, modes
 from ucrit.analyses.convert import to_control, to_scipy
 from ucrit.analyses.locus import locus

@@ -2,12 +2,12 @@
 
 import warnings
 
-import control
 import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
+import control
 import ucrit
 from ucrit import load, margins
 from ucrit.control import close, delay, lag, lqr, place, state_feedback

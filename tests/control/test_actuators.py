@@ -1,10 +1,10 @@
 """Actuators: what they do to small motions, to large ones, and to the phase."""
 
-import control
 import numpy as np
 import pytest
 import scipy.integrate
 
+import control
 import ucrit
 from ucrit import UcritError, load, margins, simulate, simulate_delayed, to_control
 from ucrit.control import broken, close, delay, lag, rate_limit, saturation, state_feedback

@@ -71,7 +71,7 @@ def test_an_accelerometer_shows_the_lateral_velocity_and_needs_no_rate():
 
 
 def test_least_variance_is_least_cost_of_the_transposed_system():
-    A, _, C, _ = state_space(CAR)
+    A = state_space(CAR).A
     row = np.eye(2)[[1]]
     P = scipy.linalg.solve_continuous_are(A.T, row.T, np.diag([1.0, 0.1]), [[0.01]])
     L = P @ row.T / 0.01

@@ -61,8 +61,7 @@ def under(law, *more):
             under("lean-by-both-steerings"),
             "theta_d",
             "theta",
-            "G*K*((tau_2 + rho*tau_3)*s + 1 - rho)"
-            "/(tau_1**2*s**2 + G*K*(tau_2 + rho*tau_3)*s + G*K*(1 - rho) - 1)",
+            "G*K*((tau_2 + rho*tau_3)*s + 1 - rho)/(tau_1**2*s**2 + G*K*(tau_2 + rho*tau_3)*s + G*K*(1 - rho) - 1)",
         ),
         (
             under("lean-by-rear-steering"),
@@ -141,8 +140,9 @@ def test_opposite_steering_of_both_wheels_lowers_the_lowest_speed():
 
 
 def test_the_trailer_with_a_steered_axle_under_its_law_is_the_one_with_the_law_built_in():
-    built, made = find_model("trailer-active-steering"), closed(
-        find_model("trailer-steered-axle"), find_controller("trailer-steering-by-yaw-rate")
+    built, made = (
+        find_model("trailer-active-steering"),
+        closed(find_model("trailer-steered-axle"), find_controller("trailer-steering-by-yaw-rate")),
     )
     for sense in (1, -1):
         one, other = symbolic(built, sense), symbolic(made, sense)

@@ -92,9 +92,7 @@ def test_the_car_follows_its_reference_from_the_start_and_with_other_tires():
     for changed in (held, held.with_(C_f=0.8 * CAR.C_f, C_r=0.9 * CAR.C_r, m=1.2 * CAR.m)):
         moved = simulate(changed, 4, inputs={"delta_f": 0.002}, tolerance=1e-7)
         assert abs(moved["r"] - moved["r_d"]).max() < 0.01 * abs(moved["r_d"]).max()
-    np.testing.assert_allclose(
-        moved["r_d"][-1], 0.002 * ucrit.transfer(NEUTRAL, "delta_f", "r").static_gain, rtol=1e-4
-    )
+    np.testing.assert_allclose(moved["r_d"][-1], 0.002 * ucrit.transfer(NEUTRAL, "delta_f", "r").static_gain, rtol=1e-4)
 
 
 def test_estimates_in_place_of_the_lateral_velocity():

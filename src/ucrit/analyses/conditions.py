@@ -44,7 +44,8 @@ def conditions(polynomial: CharacteristicPolynomial, parameters: Sequence[Any], 
     Returns
     -------
     dict
-        ``conditions``, ``conflict``, ``kind``, ``settled``, ``zeros`` and ``order`` as `ucrit.analyses.criteria.Criteria` has them.
+        ``conditions``, ``conflict``, ``kind``, ``settled``, ``zeros`` and ``order``, as
+        `ucrit.analyses.criteria.Criteria` has them.
     """
     a = list(polynomial.coefficients[polynomial.zeros :])
     even = len(a) > 1 and not any(a[1::2])

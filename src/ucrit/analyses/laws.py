@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 import sys
 from dataclasses import dataclass
 from typing import Any
@@ -109,7 +108,7 @@ def describe_controller(subject: type[Controller] | str) -> ControllerDescriptio
     return ControllerDescription(
         controller=cls.model_id(),
         title=cls.title(),
-        notes=(module and module.__doc__ or "").strip() if cls.__module__.startswith("ucrit.control.laws") else "",
+        notes=((module and module.__doc__) or "").strip() if cls.__module__.startswith("ucrit.control.laws") else "",
         drives=cls.drives,  # type: ignore[attr-defined]
         through=cls.through,  # type: ignore[attr-defined]
         parameters=tuple(declared.parameters.values()),

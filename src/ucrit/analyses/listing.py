@@ -65,8 +65,7 @@ class Listing:
         from html import escape
 
         rows = "".join(
-            f"<tr><td><code>{e.name}</code></td><td>{escape(e.title)}</td><td>{e.model}</td></tr>"
-            for e in self._all
+            f"<tr><td><code>{e.name}</code></td><td>{escape(e.title)}</td><td>{e.model}</td></tr>" for e in self._all
         )
         return f"<table>{rows}</table>"
 

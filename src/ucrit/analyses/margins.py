@@ -58,7 +58,10 @@ class Margins(Tabular):
         names = tuple(dims)
         coords = tuple(Series(n, (n,), np.asarray(v), unit_of(self.vehicle, n)) for n, v in dims.items())
         units = {"gain_up": "1", "gain_down": "1", "phase": "rad", "delay": "s", "disk": "1"}
-        data = (Series("stable", names, self.stable), *(Series(n, names, getattr(self, n), u) for n, u in units.items()))
+        data = (
+            Series("stable", names, self.stable),
+            *(Series(n, names, getattr(self, n), u) for n, u in units.items()),
+        )
         return Table("margins", self.vehicle, coords, data, names)
 
     def __str__(self) -> str:

@@ -130,7 +130,9 @@ def _make(base: type[Actuator], text: str, input: str, unit: str, meaning: str, 
     if base is _Delay:
         body[f"T_{input}"] = Parameter("s", f"delay of the {meaning}", above=0)
         for k in range(order):
-            body[f"{input}_delayed_{k + 1}"] = Variable(unit, f"state {k + 1} of the delay of the {meaning}", motion="delay")
+            body[f"{input}_delayed_{k + 1}"] = Variable(
+                unit, f"state {k + 1} of the delay of the {meaning}", motion="delay"
+            )
     return type(base.__name__.lstrip("_") + "Of" + input.title().replace("_", ""), (base,), body)
 
 

@@ -183,9 +183,7 @@ def bound_parameters(instance: Any, model: type[Model], own: Sequence[str], suff
     return {n: instance.__dict__[f"{n}_{suffix}" if n in own else n] for n in model.declaration.parameters}
 
 
-def basic_states(
-    model: type[Model], suffix: str, parameters: Mapping[str, Any]
-) -> dict[str, dict[str, Any]]:
+def basic_states(model: type[Model], suffix: str, parameters: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
     """Return the basic motion of a copy, in the form of ``basic_motion``."""
     traced = traced_once(model, None)
     values = {symbol: parameters[name] for name, symbol in traced.parameters.items()}

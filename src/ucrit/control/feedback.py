@@ -54,7 +54,8 @@ class StateFeedback(Controller):
             return state(label) - (0 if "'" in label else getattr(x0, label))
 
         return {
-            name: getattr(u, name) - sum(self.__dict__[gain_name(name, label)] * beyond(label) for label in self._labels)
+            name: getattr(u, name)
+            - sum(self.__dict__[gain_name(name, label)] * beyond(label) for label in self._labels)
             for name in self.drives
         }
 
@@ -64,7 +65,9 @@ def gain_name(input: str, label: str) -> str:
     return f"K_{input}_{label.replace(chr(39), '_dot')}"
 
 
-def _feedback(model: type[Model], inputs: tuple[str, ...], labels: tuple[str, ...], estimated: bool) -> type[Controller]:
+def _feedback(
+    model: type[Model], inputs: tuple[str, ...], labels: tuple[str, ...], estimated: bool
+) -> type[Controller]:
     body: dict[str, Any] = {"drives": inputs, "_labels": labels, "_estimated": estimated}
     word = "estimated-state-feedback" if estimated else "state-feedback"
     chosen = (*inputs, *(() if labels == tuple(state_names(model)) else labels))
@@ -275,5 +278,3 @@ def observed(model: type[Model]) -> tuple[type[Model], type[Observer]]:
     if controller is None or not issubclass(controller, Observer):
         raise UcritError(f"{model.model_id()}: there are no estimated states; add an observer first")
     return model._plant, controller  # type: ignore[attr-defined]
-
-

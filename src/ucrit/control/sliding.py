@@ -311,9 +311,7 @@ def slide(
     if vehicle.dims:
         raise UcritError(f"the law is that of one vehicle: give one value each for {', '.join(vehicle.dims)}")
     refer = None if reference is None else type(reference)
-    law = sliding(
-        vehicle, input, *weights, reference=refer, own=own, estimated=estimated, signum=phi is None
-    )
+    law = sliding(vehicle, input, *weights, reference=refer, own=own, estimated=estimated, signum=phi is None)
     first = next(iter(weights.values()))
     if not first:
         raise UcritError("the first weight of the sliding variable must differ from 0")
@@ -324,8 +322,8 @@ def slide(
         reduced = _reduced(vehicle, input, weights)
         raise UcritError(
             f"{type(vehicle).model_id()}: keeping {' and '.join(weights)} as desired by {input} leaves "
-            f"{named(reduced, growing[0], labels, left=False)}, which grows: from {input} to the sliding variable there "
-            f"is a zero at {in_words(growing[0])} 1/s, in the right half plane"
+            f"{named(reduced, growing[0], labels, left=False)}, which grows: from {input} to the sliding variable "
+            f"there is a zero at {in_words(growing[0])} 1/s, in the right half plane"
         )
     values: dict[str, Any] = {"alpha_S": alpha, "q_S": q} | ({} if phi is None else {"phi_S": phi})
     values |= {f"c_{_plain(n)}": w / first for n, w in list(weights.items())[1:]}
