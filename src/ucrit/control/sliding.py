@@ -207,7 +207,7 @@ def sliding(
         Model that the vehicle shall follow, which gets the same input as a demand; its parameters are ``<name>_d``.
         Without one, the desired values are inputs ``<state>_d`` and taken to be constant.
     own
-        Parameters that the law has values of its own for, ``<name>_known``.
+        Parameters that the law has values of its own for, ``<name>_known``; those that it does not need are left out.
     estimated
         States for which an observer's estimates are taken.
     signum
@@ -234,17 +234,20 @@ def sliding(
     if follows is not None:
         checked_states(follows, names)
         input_of(follows, input)
-    found: type[SlidingMode] = made(
-        _sliding, cls, input, labels, follows, tuple(own), checked_states(cls, estimated), signum
-    )
-    states, _, B, _ = linear_once(cls, 1)
+    own_parameters(cls, own, KNOWN)  # refuses names that are none
+    states, A, B, symbols = linear_once(cls, 1)
     column = list(cls.declaration.inputs).index(input)
-    if all(B[states.index(label), column] == 0 for label in labels):
+    rows = [states.index(label) for label in labels]
+    used = set().union(*(e.free_symbols for row in rows for e in (*A[row, :], B[row, column])))
+    kept = tuple(dict.fromkeys(name for name in own if symbols[name] in used))
+    if all(B[row, column] == 0 for row in rows):
         raise UcritError(
             f"{cls.model_id()}: {input} does not change {', '.join(labels)} at once; "
             "the sliding variable must hold a state whose rate the input enters"
         )
-    return found
+    return made(  # type: ignore[no-any-return]
+        _sliding, cls, input, labels, follows, kept, checked_states(cls, estimated), signum
+    )
 
 
 def _bare(model: type[Model]) -> type[Model]:
@@ -327,7 +330,7 @@ def slide(
         )
     values: dict[str, Any] = {"alpha_S": alpha, "q_S": q} | ({} if phi is None else {"phi_S": phi})
     values |= {f"c_{_plain(n)}": w / first for n, w in list(weights.items())[1:]}
-    values |= parameter_values(vehicle, own, KNOWN)
+    values |= parameter_values(vehicle, law._own, KNOWN)
     if reference is not None:
         values |= parameter_values(reference, law._reference_own, DESIRED)
     return close(vehicle, law, **values)
