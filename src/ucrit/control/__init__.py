@@ -7,7 +7,8 @@ from .closed import broken, close, closed, driven
 from .controller import Controller
 from .design import kalman, lqr, observer, place
 from .feedback import estimated_feedback, observing, state_feedback
-from .sliding import reaching_time, slide, sliding, sliding_eigenvalues
+from .sliding import sliding
+from .surfaces import reaching_time, slide, sliding_eigenvalues
 
 MAKERS: dict[str, Callable[..., type[Controller]]] = {
     "lag": lag,

@@ -118,13 +118,13 @@ def state_feedback(
     ['K_delta_r_V', 'K_delta_r_r']
     """
     cls = model_of(model)
-    if not inputs:
-        raise UcritError(f"{cls.model_id()}: name at least one input, such as {', '.join(cls.declaration.inputs)}")
     of = observed(cls)[0] if estimated else cls
     listed = [name for name in inputs if name not in cls.declaration.inputs and name in _state_words(of)]
     inputs = tuple(name for name in inputs if name not in listed)
     for name in inputs:
         input_of(cls, name)
+    if not inputs:
+        raise UcritError(f"{cls.model_id()}: name at least one input, such as {', '.join(cls.declaration.inputs)}")
     chosen = [*(states or ()), *listed]
     labels = checked_states(of, chosen) if chosen else tuple(state_names(of))
     return made(_feedback, of, tuple(inputs), labels, estimated)  # type: ignore[no-any-return]

@@ -7,21 +7,19 @@ Control 22 (1977) 212-222; Karnopp 2004, section 11.V). A boundary layer of widt
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from functools import cache
 from typing import Any
 
-import numpy as np
 import numpy.typing as npt
 
-from ..core.compiled import state_space
 from ..core.declare import Input, Output, Parameter
 from ..core.errors import UcritError
 from ..core.functions import maximum, minimum, sign
 from ..core.made import made
 from ..core.model import Model
 from .actuators import Actuator, input_of, model_of
-from .closed import ClosedLoop, close
+from .closed import ClosedLoop
 from .controller import Controller
 from .copies import (
     basic_states,
@@ -31,16 +29,13 @@ from .copies import (
     linear_in_symbols,
     own_parameters,
     own_states,
-    parameter_values,
     rates,
     ratio,
     state_meaning,
-    state_names,
     state_unit,
     symbol_of,
 )
 from .feedback import HAT, Observer
-from .gains import in_words, named
 
 Array = npt.NDArray[Any]
 
@@ -70,19 +65,19 @@ class SlidingMode(Controller):
 
     def _state(self, label: str, x: Any, dx: Any) -> Any:
         if label in self._estimated:
-            return getattr(x, f"{_plain(label)}_{HAT}")
+            return getattr(x, f"{plain_name(label)}_{HAT}")
         return symbol_of(self._model, label, x, dx)
 
     def _error(self, x: Any, dx: Any, u: Any) -> Any:
         """Return S."""
         wanted = u if self._reference is None else x
         return sum(
-            self._weight(label) * (self._state(label, x, dx) - getattr(wanted, f"{_plain(label)}_{DESIRED}"))
+            self._weight(label) * (self._state(label, x, dx) - getattr(wanted, f"{plain_name(label)}_{DESIRED}"))
             for label in self._surface
         )
 
     def _weight(self, label: str) -> Any:
-        return 1 if label == self._surface[0] else self.__dict__[f"c_{_plain(label)}"]
+        return 1 if label == self._surface[0] else self.__dict__[f"c_{plain_name(label)}"]
 
     def law(self, x: Any, dx: Any, u: Any, x0: Any, u0: Any) -> Any:
         name = self.drives[0]
@@ -142,7 +137,8 @@ class FollowingSlidingMode(SlidingMode):
 linear_once: Any = cache(linear_in_symbols)
 
 
-def _plain(label: str) -> str:
+def plain_name(label: str) -> str:
+    """Return a state's name without signs."""
     return label.replace("'", "_dot")
 
 
@@ -164,14 +160,14 @@ def _sliding(
     body |= {"_id": f"sliding-mode({', '.join(words)})"} | own_parameters(model, own, KNOWN)
     for label in surface[1:]:
         meaning = f"weight of the {state_meaning(model, label)} in the sliding variable"
-        body[f"c_{_plain(label)}"] = Parameter(ratio(first, state_unit(model, label)), meaning)
+        body[f"c_{plain_name(label)}"] = Parameter(ratio(first, state_unit(model, label)), meaning)
     body["q_S"] = Parameter("1/s", "rate at which a large sliding variable shrinks", at_least=0, default=0.0)
     body["alpha_S"] = Parameter(f"{first}/s", "least rate of change of the sliding variable", at_least=0)
     if not signum:
         body["phi_S"] = Parameter(first, "width of the boundary layer of the sliding variable", above=0)
     if reference is None:
         for label in surface:
-            body[f"{_plain(label)}_{DESIRED}"] = Input(
+            body[f"{plain_name(label)}_{DESIRED}"] = Input(
                 state_unit(model, label), f"desired {state_meaning(model, label)}"
             )
     else:
@@ -218,7 +214,7 @@ def sliding(
     UcritError
         If there is no such input or state, or the input does not act on S at once.
     """
-    cls = _bare(model_of(model))
+    cls = bare_model(model_of(model))
     listed = [word.partition(" ") for word in surface]
     own = (*own, *(rest for word, _, rest in listed if word == "own"))
     estimated = (*estimated, *(rest for word, _, rest in listed if word == "estimated"))
@@ -250,163 +246,8 @@ def sliding(
     )
 
 
-def _bare(model: type[Model]) -> type[Model]:
+def bare_model(model: type[Model]) -> type[Model]:
     """Return a model without the actuators and observers added to it."""
     while issubclass(model, ClosedLoop) and issubclass(model._controller, Actuator | Observer):
         model = model._plant
     return model
-
-
-def slide(
-    vehicle: Model,
-    input: str,
-    surface: str | Mapping[str, float],
-    *,
-    alpha: float,
-    phi: float | None,
-    q: float = 0.0,
-    reference: Model | None = None,
-    own: Sequence[str] = (),
-    estimated: Sequence[str] = (),
-) -> Model:
-    """Return the vehicle under a sliding-mode controller.
-
-    Parameters
-    ----------
-    vehicle
-        With scalar parameters, which the law knows as they are now.
-    input
-        Name of the input that is driven.
-    surface
-        The state that shall be as desired, or weights by state.
-    alpha
-        Least rate at which S shrinks [unit of S/s]: above all that the law does not know.
-    phi
-        Width of the boundary layer [unit of S]; ``None`` for a law that jumps.
-    q
-        Rate [1/s] at which a large S shrinks.
-    reference
-        Vehicle to be followed, which gets the driver's demand; without one, desired values are inputs.
-    own
-        Parameters whose present values the law keeps when the vehicle's change.
-    estimated
-        States for which an observer's estimates are taken.
-
-    Returns
-    -------
-    Model
-        With the parameters ``q_S``, ``alpha_S`` and ``phi_S``, and the output ``S``.
-
-    Raises
-    ------
-    UcritError
-        If what is left of the motion while S is zero would grow: it is named.
-
-    Examples
-    --------
-    >>> from ucrit import load, modes
-    >>> from ucrit.control import slide
-    >>> car = slide(load("oversteering-car"), "delta_f", "r", alpha=1, phi=0.1, reference=load("neutral-car"))
-    >>> -10.0 in modes(car).eigenvalues.real.round(6)
-    True
-    """
-    weights = {surface: 1.0} if isinstance(surface, str) else dict(surface)
-    if vehicle.dims:
-        raise UcritError(f"the law is that of one vehicle: give one value each for {', '.join(vehicle.dims)}")
-    refer = None if reference is None else type(reference)
-    law = sliding(vehicle, input, *weights, reference=refer, own=own, estimated=estimated, signum=phi is None)
-    first = next(iter(weights.values()))
-    if not first:
-        raise UcritError("the first weight of the sliding variable must differ from 0")
-    left = sliding_eigenvalues(vehicle, input, weights)
-    growing = [p for p in left if p.real > 1e-9 * max(1.0, np.abs(left).max())]
-    if growing:
-        labels = list(state_names(type(_plain_vehicle(vehicle))))
-        reduced = _reduced(vehicle, input, weights)
-        raise UcritError(
-            f"{type(vehicle).model_id()}: keeping {' and '.join(weights)} as desired by {input} leaves "
-            f"{named(reduced, growing[0], labels, left=False)}, which grows: from {input} to the sliding variable "
-            f"there is a zero at {in_words(growing[0])} 1/s, in the right half plane"
-        )
-    values: dict[str, Any] = {"alpha_S": alpha, "q_S": q} | ({} if phi is None else {"phi_S": phi})
-    values |= {f"c_{_plain(n)}": w / first for n, w in list(weights.items())[1:]}
-    values |= parameter_values(vehicle, law._own, KNOWN)
-    if reference is not None:
-        values |= parameter_values(reference, law._reference_own, DESIRED)
-    return close(vehicle, law, **values)
-
-
-def _plain_vehicle(vehicle: Model) -> Model:
-    cls = _bare(type(vehicle))
-    return cls(**{name: vehicle.values[name] for name in cls.declaration.parameters})
-
-
-def _reduced(vehicle: Model, input: str, surface: Mapping[str, float]) -> Array:
-    """Return ``A - b (c'b)^-1 c'A``."""
-    plain = _plain_vehicle(vehicle)
-    A, B, _, _ = state_space(plain)
-    labels = list(state_names(type(plain)))
-    c = np.zeros(len(labels))
-    for name, label in zip(surface, checked_states(type(plain), list(surface)), strict=True):
-        c[labels.index(label)] = surface[name]
-    b = B[:, list(type(plain).declaration.inputs).index(input)]
-    return np.asarray(A - np.outer(b, c @ A) / (c @ b))
-
-
-def sliding_eigenvalues(vehicle: Model, input: str, surface: Mapping[str, float]) -> Array:
-    """Return the eigenvalues [1/s] of the motion under the linear part of the law alone, ``A - b (c'b)^-1 c'A``.
-
-    Parameters
-    ----------
-    vehicle
-        With scalar parameters.
-    input
-        Name of the input that is driven.
-    surface
-        Weights by state.
-
-    Returns
-    -------
-    array
-        One of them is zero: S stays as it is. The others belong to the motion while it slides.
-
-    Examples
-    --------
-    >>> from ucrit import load
-    >>> from ucrit.control import sliding_eigenvalues
-    >>> bool(abs(sliding_eigenvalues(load("bmw-320i"), "delta_f", {"r": 1})).min() < 1e-12)
-    True
-    """
-    return np.asarray(np.sort_complex(np.linalg.eigvals(_reduced(vehicle, input, surface)).astype(complex)))
-
-
-def reaching_time(S: float, alpha: float, q: float = 0.0, disturbance: float = 0.0) -> float:
-    """Return the time [s] until the sliding variable is zero.
-
-    Parameters
-    ----------
-    S
-        Its value at the start.
-    alpha
-        Least rate [unit of S/s].
-    q
-        Rate [1/s].
-    disturbance
-        What pushes S away from zero all the time [unit of S/s].
-
-    Returns
-    -------
-    float
-        ``ln(1 + q |S|/(alpha - disturbance))/q``; infinite where alpha is not above the disturbance.
-
-    Examples
-    --------
-    >>> reaching_time(0.5, alpha=2)
-    0.25
-    """
-    rate, size = alpha - disturbance, abs(S)
-    if not size:
-        return 0.0
-    if rate <= 0:
-        return float("inf")
-    return float(size / rate if not q else np.log1p(q * size / rate) / q)
