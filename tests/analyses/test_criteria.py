@@ -87,6 +87,7 @@ TOO_LONG = (
     "airplane-lateral-coefficients",
     "car-trailer",
     "rail-truck",
+    load("oversteering-car-in-sliding-mode").model_id(),
 )
 
 

@@ -107,7 +107,7 @@ def test_estimates_in_place_of_the_lateral_velocity():
 def test_file_and_class_of_the_catalogue_are_the_same(tmp_path):
     shipped = load("oversteering-car-in-sliding-mode")
     own = ["m", "I_z", "C_f", "C_r"]
-    held = slide(CAR, "delta_f", "r", alpha=1.5, phi=0.05, reference=NEUTRAL, own=own)
+    held = slide(CAR, "delta_f", "r", alpha=1.5, phi=0.05, reference=load("understeering-car"), own=own)
     assert type(held) is type(shipped)
     assert held.values == shipped.values
     path = tmp_path / "held.toml"
