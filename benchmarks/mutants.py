@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import difflib
 import os
+import signal
 import sys
 from collections import Counter
 from collections.abc import Iterator
@@ -35,6 +36,9 @@ from ucrit.core.motion import motion
 from ucrit.core.trace import trace
 
 REQUIRED = 0.99
+SECONDS = 30
+"""An error that makes the equations grow until checks take longer than this is noticed, too."""
+SLOW = "too slow"
 EQUIVALENT = "equivalent"
 SURVIVED = "survived"
 
@@ -84,18 +88,39 @@ def imported_parts(path: Path) -> Iterator[tuple[str, list[str]]]:
 
 
 def outcome(mutant: Mutant) -> tuple[Mutant, str]:
+    """Return what became of a mutant, tried in a process of its own that a clock can end."""
+    reader, writer = os.pipe()
+    child = os.fork()
+    if not child:
+        os.close(reader)
+        signal.signal(signal.SIGALRM, signal.SIG_DFL)
+        signal.alarm(SECONDS * len(mutant.models))
+        try:
+            os.write(writer, checked(mutant).encode())
+        finally:
+            os._exit(0)
+    os.close(writer)
+    with os.fdopen(reader) as answer:
+        found = answer.read()
+    _, status = os.waitpid(child, 0)
+    if not found and not os.WIFSIGNALED(status):
+        raise RuntimeError(f"{mutant.file}: {mutant.what}: the checks stopped without a result\n{mutant.diff}")
+    return mutant, found or SLOW
+
+
+def checked(mutant: Mutant) -> str:
     """Return the name of the first check that fails, or that the mutant is equivalent or survived."""
     differing = False
     for name in mutant.models:
         try:
             model = altered(mutant, name)
         except Exception as error:
-            return mutant, f"class statement ({type(error).__name__})"
+            return f"class statement ({type(error).__name__})"
         for check in run(Subject.of(model, 0, None)):
             if check.passed is False:
-                return mutant, check.name
+                return check.name
         differing |= not same(find_model(name), model)
-    return mutant, SURVIVED if differing else EQUIVALENT
+    return SURVIVED if differing else EQUIVALENT
 
 
 def altered(mutant: Mutant, name: str) -> type[Model]:

@@ -7,6 +7,7 @@ from chapters import curve, figure_with_axes, save
 
 from ucrit import load, moment_line, simulate, static_margin, step_response, trim
 from ucrit.core.compiled import state_space
+from ucrit.parts import wings
 from ucrit.plots import style
 
 
@@ -25,6 +26,19 @@ def lean_steps():
     panels[0].set_ylabel("lean to the right [degrees]")
     panels[0].legend(frameon=False, loc="lower left")
     save(figure, "chapter-07-steps")
+
+
+def section_lift():
+    figure, axes = figure_with_axes(2.9)
+    alpha = np.deg2rad(np.linspace(-10, 60, 500))
+    curve(axes, np.rad2deg(alpha), wings.stalling_lift(alpha), 0, "with stall")
+    small = alpha < np.deg2rad(20)
+    curve(axes, np.rad2deg(alpha[small]), wings.thin_section(alpha[small])[0], 1, "thin section, attached flow")
+    axes.axhline(0, color=style.MUTED, linewidth=0.8)
+    axes.set_xlabel("angle of attack from zero lift [degrees]")
+    axes.set_ylabel("lift coefficient of a section")
+    axes.legend(frameon=False, loc="upper right")
+    save(figure, "chapter-09-section")
 
 
 def moment_lines():
@@ -86,6 +100,7 @@ def last_terms():
 
 DRAWINGS = {
     "steps": lean_steps,
+    "section": section_lift,
     "moment": moment_lines,
     "phugoid": phugoid_speeds,
     "last": last_terms,

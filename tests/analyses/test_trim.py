@@ -56,3 +56,11 @@ def test_an_unknown_name_is_refused():
 
 def test_units_of_rates():
     assert trim(load("caravan")).units["theta'"] == "rad/s"
+
+
+def test_trim_of_arrays_prints_its_span():
+    plane = load("navion-from-geometry").with_(U=[40.0, 60.0])
+    angles = trim(plane)["delta_e"]
+    shown = str(trim(plane))
+    assert f"delta_e = {angles.min():.6g} to {angles.max():.6g} rad" in shown
+    assert "theta = 0 rad\n" in shown

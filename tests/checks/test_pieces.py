@@ -7,6 +7,7 @@ import sympy as sp
 from hypothesis import given
 from hypothesis import strategies as st
 
+from ucrit.catalogue import find_model, load
 from ucrit.checks import Check, Report, check_model
 from ucrit.checks.matching import same_equations
 from ucrit.checks.precise import numeric, same_up_to_factor
@@ -123,3 +124,24 @@ def test_same_seed_same_report():
 @pytest.mark.parametrize("seed", range(5))
 def test_verdict_does_not_depend_on_the_seed(seed):
     assert check_model(TrailerRigidTire, seed=seed).ok
+
+
+def published_criteria(model, path=None):
+    report = check_model(model, published=path)
+    return next(check for check in report.checks if check.name == "published criteria")
+
+
+def test_a_criterion_is_tested_far_from_the_boundary():
+    slow = load("oversteering-car").with_(U=1.0)
+    found = published_criteria(slow)
+    assert found.passed, found.detail
+
+
+def test_a_criterion_that_random_vehicles_cannot_test_does_not_apply(tmp_path):
+    path = tmp_path / "caster.toml"
+    path.write_text('[[criterion]]\nsource = "always stable"\nexpression = "a + b"\n')
+    found = published_criteria(find_model("caster"), path)
+    assert found.passed is None
+    assert "all of 500 random vehicles are stable" in found.detail
+    path.write_text('[[criterion]]\nsource = "wrong"\nexpression = "-a"\n')
+    assert published_criteria(find_model("caster"), path).passed is False

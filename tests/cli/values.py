@@ -19,7 +19,7 @@ def inside(p: Parameter) -> float:
         return (p.lower + p.upper) / 2
     if math.isfinite(p.lower):
         return p.lower + 1
-    return p.upper - 1 if math.isfinite(p.upper) else 1.0
+    return p.upper - 1 if math.isfinite(p.upper) else 0.1
 
 
 def sample(model: type[Model]) -> dict[str, float]:

@@ -154,6 +154,12 @@ def test_pickle_and_file_keep_the_loop(tmp_path):
     assert type(load_vehicle(path)) is type(moving)
 
 
+def test_what_is_impossible_for_the_vehicle_stays_so():
+    moving = load("motorcycle-steered-to-lean")
+    with pytest.raises(UcritError, match="no principal moment of inertia"):
+        moving.with_(I_1=2 * (moving.I_2 + moving.I_3))
+
+
 class Nothing(Controller):
     """Drives nothing."""
 

@@ -77,7 +77,9 @@ def test_a_template_only_lacks_numbers(name):
     with pytest.raises(UcritError, match="is missing"):
         parse_vehicle(text, "new.toml", FIND)
     for parameter in find_model(name).declaration.parameters.values():
-        value = 0.5 if parameter.allows(0.5) else (parameter.lower + parameter.upper) / 2
+        size = 0.5 if parameter.sign else 0.1  # products of inertia are less than moments
+        middle = (parameter.lower + parameter.upper) / 2
+        value = next(x for x in (size, -size, middle) if parameter.allows(x))
         text = text.replace(f"# {parameter.name} = ", f"{parameter.name} = {value} ")
     assert parse_vehicle(text, "new.toml", FIND).model_id() == name
 

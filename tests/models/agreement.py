@@ -5,6 +5,7 @@ import pytest
 from scipy.optimize import brentq
 
 from ucrit import critical, modes
+from ucrit.core.possible import holds
 
 SETS = 40
 
@@ -12,7 +13,10 @@ SETS = 40
 def varied(vehicle, seed):
     """Return a vehicle whose parameters differ from the given one's by up to a factor of two."""
     rng = np.random.default_rng(seed)
-    return vehicle.with_(**{name: value * 2 ** rng.uniform(-1, 1) for name, value in vehicle.values.items()})
+    while True:
+        values = {name: value * 2 ** rng.uniform(-1, 1) for name, value in vehicle.values.items()}
+        if all(holds(type(vehicle), values).values()):
+            return vehicle.with_(**values)
 
 
 def growth(vehicle):

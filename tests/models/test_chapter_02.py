@@ -171,7 +171,9 @@ def test_with_a_damper_only_the_largest_axis_is_stable():
     rng = np.random.default_rng(2)
     verdicts = set()
     for _ in range(300):
-        I_xx, I_yy, I_zz, Omega, J, c = 10 ** rng.uniform(-1, 1, 6)
+        x, y, z, Omega, J, c = 10 ** rng.uniform(-1, 1, 6)  # second moments of mass along the axes
+        I_xx, I_yy, I_zz = y + z, z + x, x + y
+        I_yy, J = I_yy / (1 + J), I_yy * J / (1 + J)
         satellite = SatelliteDamped(I_xx=I_xx, I_yy=I_yy, I_zz=I_zz, Omega=Omega, J=J, c=c)
         largest = I_xx > max(I_yy + J, I_zz)
         assert verdict(satellite).stable == largest

@@ -285,3 +285,31 @@ def test_geometry_and_the_coefficients_that_follow_from_it_move_alike():
         C_mq=-2 * k_t * (plane.l_t / p["c"]) ** 2,
     )
     assert modes(coefficients).eigenvalues == pytest.approx(modes(plane).eigenvalues, rel=1e-9)
+
+
+# Stall: the published law, with its own exponentials, is an independent entry.
+
+
+def blended(alpha, slope, stall, M):
+    """Beard and McLain (2012), eqs. (4.9) and (4.10), as printed."""
+    A, B = math.exp(-M * (alpha - stall)), math.exp(M * (alpha + stall))
+    sigma = (1 + A + B) / ((1 + A) * (1 + B))
+    plate = 2 * math.copysign(1, alpha) * math.sin(alpha) ** 2 * math.cos(alpha)
+    return (1 - sigma) * slope * alpha + sigma * plate
+
+
+@pytest.mark.parametrize("alpha", [-1.0, -0.3, -0.1, 0.02, 0.2, 0.25, 0.3, 1.2])
+def test_stalling_lift_is_the_published_blend_of_attached_flow_and_flat_plate(alpha):
+    for slope, stall, M in ((2 * math.pi, 0.25, 50.0), (4.7, 0.4, 20.0)):
+        expected = blended(alpha, slope, stall, M)
+        assert wings.stalling_lift(alpha, slope, stall, M) == pytest.approx(expected, rel=1e-12)
+
+
+def test_lift_of_a_section_breaks_away_once():
+    alpha = np.deg2rad(np.linspace(0, 30, 301))
+    lift = wings.stalling_lift(alpha)
+    highest = int(np.argmax(lift))
+    assert np.deg2rad(10) < alpha[highest] < 0.25
+    assert (np.diff(lift[:highest]) > 0).all()
+    assert lift[highest:].min() < lift[highest] / 3
+    assert wings.stalling_lift(-alpha) == pytest.approx(-lift)

@@ -36,6 +36,32 @@ def test_state_matrix_of_the_747_from_its_dimensional_derivatives(name):
     assert pytest.approx(A, rel=6e-3, abs=1e-12) == np.array(PRINTED[name])
 
 
+# B. Jackson, NASA LaRCsim, navion_aero.c (1992): per unit of mass or inertia, in feet, per sideslip where so named
+LARCSIM = {
+    "navion": {"X_u": -0.0451, "X_w": 0.03607, "Z_u": -0.3697, "Z_w": -2.0244, "M_w": -0.05, "M_q": -2.0767},
+    "navion-lateral": {
+        "Y_v": -0.2543,
+        "L_v": -15.982 / 176,
+        "N_v": 4.495 / 176,
+        "L_p": -8.402,
+        "L_r": 2.193,
+        "N_p": -0.3498,
+        "N_r": -0.7605,
+    },
+}
+
+
+@pytest.mark.parametrize(("name", "derivative"), [(name, d) for name, ds in LARCSIM.items() for d in ds])
+def test_navion_has_the_derivatives_of_another_source(name, derivative):
+    vehicle = load(name)
+    force, of = derivative.split("_")
+    per = {"L": "I_x", "M": "I_y", "N": "I_z"}.get(force, "m")
+    length = FOOT if force in "LMN" and of in "uvw" else 1.0
+    found = getattr(vehicle, derivative) / vehicle.values[per] * length
+    coarse = derivative == "N_v"  # C_nbeta is given to two digits
+    assert found == pytest.approx(LARCSIM[name][derivative], rel=0.013 if coarse else 1.2e-3)
+
+
 def test_navion_frequencies_and_damping():
     found = {mode.name: mode for mode in modes(load("navion").with_(C_Lq=0))}
     short, slow = found["short period oscillation"], found["phugoid oscillation"]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from drawn import find, legend_texts, texts
 
-from ucrit import analyze, critical, load, locus, modes, plot, plots, remedies, stability_map, sweep
+from ucrit import analyze, critical, load, locus, modes, moment_line, plot, plots, remedies, stability_map, sweep
 from ucrit.core import UcritError
 from ucrit.plots import style
 
@@ -182,6 +182,19 @@ class TestDispatch:
         assert "lateral oscillation, 0.755 Hz" in texts(plot(modes(caravan)))
         assert find(plot(remedies(caravan)), "bar-a")
         assert "stable" in texts(plot(stability_map(caravan, U=[10.0, 20, 30], a=[2.0, 3, 4])))
+
+    def test_lines_of_moment_against_lift_with_their_trim(self):
+        plane = load("navion-from-geometry")
+        lines = moment_line(plane, "delta_e", np.deg2rad([-6, -4]))
+        figure = plot(lines)
+        for row in range(2):
+            (drawn,) = find(figure, f"line-{row}")
+            assert drawn.get_ydata() == pytest.approx(lines.moment[row])
+        (dots,) = find(figure, "trimmed")
+        assert dots.get_xdata() == pytest.approx(lines.trimmed)
+        named = [t.get_text() for t in figure.axes[0].get_legend().get_texts()]
+        assert named == ["\N{MINUS SIGN}6 degrees", "\N{MINUS SIGN}4 degrees"]
+        assert "[N m]" in plot(moment_line(load("model-glider"))).axes[0].get_ylabel().replace("·", " ")
 
     def test_a_vehicle_without_speed_shows_its_modes(self):
         assert "lateral oscillation, 1.67 Hz" in texts(plot(analyze("wheelset-1-in-20")))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..core.compiled import deciding_coefficients
+from ..core.possible import allowed
 from ..numerics.hurwitz import stable
 from .remedies import SPEEDS, Remedy
 
@@ -51,7 +52,7 @@ def advice(remedy: Remedy, found: Analysis) -> Advice:
     rising = remedy.value > remedy.present
     if abs(remedy.value) < NOTHING * abs(remedy.present):
         return Advice("above" if rising else "below", "0", 1.0 if rising else -1.0)
-    parameter = type(found.vehicle).declaration.parameters[remedy.parameter]
+    parameter = allowed(found.vehicle, remedy.parameter)
     for digits in range(DIGITS, 16):
         value = rounded(remedy.value, digits, 1 if rising else -1)
         if parameter.allows(float(value)) and _helps(found, remedy.parameter, float(value)):

@@ -17,6 +17,7 @@ import numpy as np
 from ..core.compiled import compiled, direction
 from ..core.errors import UcritError, near_match
 from ..core.model import Model
+from ..core.possible import allowed
 from .convert import Series, Table, Tabular
 from .criteria import Boundary, criteria
 from .exact import exact_search
@@ -181,7 +182,7 @@ def parameter_name(vehicle: Model, parameter: str | None) -> str:
 
 
 def _range(vehicle: Model, name: str, lower: float | None, upper: float | None) -> tuple[float, float]:
-    declared = type(vehicle).declaration.parameters[name]
+    declared = allowed(vehicle, name)
     least, most = declared.lower, declared.upper
     if declared.is_speed:
         least, most = (max(least, 0.0), most) if direction(vehicle) > 0 else (least, min(most, 0.0))

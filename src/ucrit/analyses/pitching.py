@@ -67,10 +67,11 @@ class StaticMargin:
 
     def __str__(self) -> str:
         name = self.vehicle.info.name or type(self.vehicle).model_id()
-        if self.vehicle.dims:
-            return f"{name}: static margin for arrays of {', '.join(self.vehicle.dims)}"
-        word = "stable" if self.stable else "unstable"
         of = " m" if self.unit == "m" else " chords"
+        if self.vehicle.dims:
+            least, most = np.min(self.margin), np.max(self.margin)
+            return f"{name}: static margin {least:.4g} to {most:.4g}{of} for arrays of {', '.join(self.vehicle.dims)}"
+        word = "stable" if self.stable else "unstable"
         head = f"{name}: statically {word} in pitch, static margin {self.margin:.4g}{of}"
         return f"{head}\n    margin = {self.formula}\n    neutral point {self.neutral_point:.4g}{of}"
 

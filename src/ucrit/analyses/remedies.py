@@ -12,6 +12,7 @@ import numpy.typing as npt
 from ..core.compiled import compiled, deciding_coefficients, direction
 from ..core.errors import UcritError
 from ..core.model import Model
+from ..core.possible import allowed
 from ..numerics.hurwitz import stable
 from .critical import critical
 
@@ -108,15 +109,15 @@ def _speeds(vehicle: Model, name: str, upto: float | None, since: float) -> Arra
 
 def _grid_stable(vehicle: Model, key: str, values: Array, speeds: Array | None) -> Array:
     """Return which values of a parameter make the vehicle stable at all given speeds; impossible values do not."""
-    allowed = type(vehicle).declaration.parameters[key].allows(values)
-    changes: dict[str, Any] = {key: np.where(allowed, values, vehicle.values[key])}
+    possible = allowed(vehicle, key).allows(values)
+    changes: dict[str, Any] = {key: np.where(possible, values, vehicle.values[key])}
     name = type(vehicle).declaration.speed
     if speeds is not None and name is not None:
         changes[name] = speeds
     changed = vehicle.with_(**changes)
     good = np.broadcast_to(stable(deciding_coefficients(changed)), [len(d) for d in changed.dims.values()])
     axis = list(changed.dims).index(key)
-    return np.asarray(good.all(axis=tuple(i for i in range(good.ndim) if i != axis)) & allowed)
+    return np.asarray(good.all(axis=tuple(i for i in range(good.ndim) if i != axis)) & possible)
 
 
 def _stable(vehicle: Model, speeds: Array | None) -> bool:
@@ -179,7 +180,7 @@ def _nearest(vehicle: Model, key: str, present: float, step: float, speeds: Arra
 
 def _offsets(vehicle: Model, key: str, present: float, step: float) -> Array:
     """Relative changes to try; those of a positive parameter that shrinks end just above zero."""
-    lower = type(vehicle).declaration.parameters[key].lower
+    lower = allowed(vehicle, key).lower
     if step < 0 and math.isfinite(lower) and present > lower:
         room = (present - lower) / -step
         return np.asarray(room * (1 - np.logspace(0, -3, 122)[1:]))
@@ -197,4 +198,4 @@ def _bisect(vehicle: Model, key: str, bad: float, good: float, speeds: Array | N
 
 
 def _allowed(vehicle: Model, key: str, value: float) -> bool:
-    return bool(type(vehicle).declaration.parameters[key].allows(value))
+    return bool(allowed(vehicle, key).allows(value))

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..core.model import Model
+from ..core.possible import allowed
 from .modes import eigenvalues, growth, rigid_positions
 
 POINTS = 2001
@@ -58,8 +59,8 @@ def _growth(vehicle: Model, name: str, values: Array) -> Array:
     """Largest real part relative to the largest modulus; impossible values take the present one."""
     if not values.size:
         return np.zeros(0)
-    allowed = type(vehicle).declaration.parameters[name].allows(values)
-    found = eigenvalues(vehicle.with_(**{name: np.where(allowed, values, vehicle.values[name])}))
+    possible = allowed(vehicle, name).allows(values)
+    found = eigenvalues(vehicle.with_(**{name: np.where(possible, values, vehicle.values[name])}))
     return np.asarray(growth(vehicle, found) / np.abs(found).max(axis=-1))
 
 

@@ -50,14 +50,18 @@ class Trim(Tabular):
 
     def __str__(self) -> str:
         name = self.vehicle.info.name or type(self.vehicle).model_id()
-        if self.vehicle.dims:
-            return f"{name}: basic motion for arrays of {', '.join(self.vehicle.dims)}"
+        arrays = f" for arrays of {', '.join(self.vehicle.dims)}" if self.vehicle.dims else ""
         lines = []
         for key, value in self.values.items():
             unit = "" if self.units[key] == "1" else f" {self.units[key]}"
-            degrees = f" ({np.rad2deg(float(value)):.4g} deg)" if self.units[key] == "rad" and value else ""
-            lines.append(f"    {key} = {float(value):.6g}{unit}{degrees}")
-        return "\n".join([f"{name}: basic motion", *lines])
+            degrees = f" ({_span(np.rad2deg(value), 4)} deg)" if self.units[key] == "rad" and value.any() else ""
+            lines.append(f"    {key} = {_span(value, 6)}{unit}{degrees}")
+        return "\n".join([f"{name}: basic motion{arrays}", *lines])
+
+
+def _span(value: Array, digits: int) -> str:
+    low, high = f"{value.min():.{digits}g}", f"{value.max():.{digits}g}"
+    return low if low == high else f"{low} to {high}"
 
 
 def trim(vehicle: Model) -> Trim:

@@ -13,11 +13,15 @@ import numpy.typing as npt
 
 from ..catalogue import VEHICLES, load, vehicle_names
 from ..core.declare import Parameter
+from ..core.errors import UcritError
 from ..core.model import Model
+from ..core.possible import holds
 
 Array = npt.NDArray[np.float64]
+Indices = npt.NDArray[np.int_]
 
 SPREAD = 3.0
+ROUNDS = 150
 FLIPPED = 0.25
 USUAL = {"kg": 500.0, "kg m^2": 500.0, "m/s": 20.0, "N": 5e3, "N/m": 1e4, "N/rad": 5e4, "Pa": 1e5, "rad": 0.2}
 
@@ -39,8 +43,9 @@ def parameter_sets(
     count: int,
     direction: int = 1,
     around: Sequence[Model] = (),
+    spread: float = SPREAD,
 ) -> list[Array]:
-    """Return ``count`` values of every parameter, in declared order and within the declared bounds.
+    """Return ``count`` values of every parameter, in declared order, within the bounds and possible together.
 
     Parameters
     ----------
@@ -53,18 +58,43 @@ def parameter_sets(
     direction
         Sign of the speed where backing up is allowed; 0 for either.
     around
-        Vehicles whose values are the centres; a value spreads by a factor 3 both ways.
+        Vehicles whose values are the centres.
+    spread
+        Factor by which a value spreads, both ways.
     """
     chosen = rng.integers(max(len(around), 1), size=count)
     signs = rng.choice([-1, 1], size=count) if direction == 0 else np.full(count, direction)
+    sets = _sets(model, rng, chosen, signs, around, spread)
+    for again in range(ROUNDS):
+        wrong = np.flatnonzero(~_possible(model, sets))
+        if not wrong.size:
+            return sets
+        nearer = spread ** (0.9**again)
+        redrawn = _sets(model, rng, chosen[wrong], signs[wrong], around, nearer)
+        for values, new in zip(sets, redrawn, strict=True):
+            values[wrong] = new
+    raise UcritError(f"{model.model_id()}: found no values that are possible together; check one of its vehicles")
+
+
+def _sets(
+    model: type[Model], rng: np.random.Generator, chosen: Indices, signs: Array, around: Sequence[Model], spread: float
+) -> list[Array]:
     sets = []
     for name, parameter in model.declaration.parameters.items():
         known = [_centre(vehicle.values, name, parameter) for vehicle in around]
         centre = np.array(known or [_usual(parameter)])[chosen]
-        values = _draw(parameter, centre, rng)
+        values = _draw(parameter, centre, rng, spread)
         reversible = parameter.is_speed and parameter.sign is None
         sets.append(np.abs(values) * signs if reversible else values)
     return sets
+
+
+def _possible(model: type[Model], sets: list[Array]) -> npt.NDArray[np.bool_]:
+    values = dict(zip(model.declaration.parameters, sets, strict=True))
+    true = np.ones(sets[0].shape, dtype=bool) if sets else np.ones(1, dtype=bool)
+    for statement in holds(model, values).values():
+        true &= statement
+    return true
 
 
 def _centre(values: Mapping[str, Any], name: str, parameter: Parameter) -> float:
@@ -75,8 +105,8 @@ def _usual(parameter: Parameter) -> float:
     return USUAL.get(parameter.unit, 1.0) * (-1 if parameter.sign == -1 else 1)
 
 
-def _draw(parameter: Parameter, centre: Array, rng: np.random.Generator) -> Array:
-    factors = SPREAD ** rng.uniform(-1, 1, centre.size)
+def _draw(parameter: Parameter, centre: Array, rng: np.random.Generator, spread: float) -> Array:
+    factors = spread ** rng.uniform(-1, 1, centre.size)
     values: Array = centre * factors
     if parameter.sign is None and not parameter.is_speed:
         values = np.where(rng.random(centre.size) < FLIPPED, -values, values)

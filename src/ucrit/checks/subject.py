@@ -14,12 +14,12 @@ import numpy as np
 from ..catalogue import PUBLISHED
 from ..core.derive import symbolic
 from ..core.linear import LinearSystem
-from ..core.model import STATEMENTS, Model, Names
+from ..core.model import Model, Names, is_current
 from ..core.motion import Motion, motion
 from ..core.trace import Traced, trace
 from .published import Entry, read_published
 from .report import NotApplicableError
-from .sample import Array, parameter_sets, vehicles_of
+from .sample import SPREAD, Array, parameter_sets, vehicles_of
 
 
 @dataclass(frozen=True)
@@ -67,16 +67,14 @@ class Subject:
     @property
     def derivations(self) -> list[str]:
         """Names of the methods that derive the equations again."""
-        return sorted(name for name in dir(self.model) if name.startswith("equations_") and self.is_current(name))
+        found = (
+            name for name in dir(self.model) if name.startswith("equations_") and callable(getattr(self.model, name))
+        )
+        return sorted(name for name in found if self.is_current(name))
 
     def is_current(self, method: str) -> bool:
-        """Tell whether a method is no older in the line of classes than the statement of motion in use.
-
-        One that a base class wrote for its own equations says nothing about a class that states new ones.
-        """
-        lines = [vars(base) for base in self.model.__mro__]
-        stated = next(i for i, names in enumerate(lines) if any(name in names for name in STATEMENTS))
-        return any(method in names for names in lines[: stated + 1])
+        """Tell whether a method is no older in the line of classes than the statement of motion in use."""
+        return is_current(self.model, method)
 
     def groups(self, traced: Traced) -> dict[str, Names]:
         """Symbols of variables, rates and inputs as a model's methods take them."""
@@ -92,9 +90,9 @@ class Subject:
         """Return a generator of its own for every purpose, the same in every run."""
         return np.random.default_rng([self.seed, zlib.crc32(purpose.encode())])
 
-    def parameter_sets(self, purpose: str, count: int, direction: int = 1) -> list[Array]:
+    def parameter_sets(self, purpose: str, count: int, direction: int = 1, spread: float = SPREAD) -> list[Array]:
         """Return random values of every parameter."""
-        return parameter_sets(self.model, self.rng(purpose), count, direction, self.vehicles)
+        return parameter_sets(self.model, self.rng(purpose), count, direction, self.vehicles, spread)
 
     def points(self, purpose: str, direction: int = 1, count: int = 3) -> list[Sequence[float]]:
         """Return a few random parameter sets, one a row."""

@@ -159,6 +159,8 @@ def _close(plant: type[Model], controller: type[Controller]) -> type[Model]:
     body |= {"_reaches": tuple(reaches)}
     body |= {"even": (*getattr(plant, "even", ()), *getattr(controller, "even", ()))}
     body |= {"mirror": getattr(plant, "mirror", True) and getattr(controller, "mirror", True)}
+    if hasattr(plant, "possible") or hasattr(controller, "possible"):
+        body["possible"] = _possible
     return type(f"{plant.__name__}With{controller.__name__}", (ClosedLoop,), body)
 
 
@@ -169,6 +171,12 @@ def _free(name: str, taken: Mapping[str, Any]) -> str:
         number += 1
         found = f"{name}_{number}"
     return found
+
+
+def _possible(self: ClosedLoop) -> dict[str, Any]:
+    """Return what values must be possible together, for vehicle and controller."""
+    stated = [self._bound(cls) for cls in (self._plant, self._controller) if hasattr(cls, "possible")]
+    return {statement: true for instance in stated for statement, true in instance.possible().items()}
 
 
 def _title(plant: type[Model], controller: type[Controller]) -> str:

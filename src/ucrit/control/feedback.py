@@ -159,7 +159,7 @@ class Observer(Controller):
         errors, gaps = {}, []
         for name in self._measured:
             seen = self._seen(name, x, dx, y)
-            estimate = self._copy(x, dx, u, {}).outputs.get(name) if name in y.__dict__ else None
+            estimate = self._with_own(x, dx, u, {}).outputs.get(name) if name in y.__dict__ else None
             if name in self._implicit:
                 errors[name] = getattr(x, f"e_{name}")
             else:
@@ -169,7 +169,7 @@ class Observer(Controller):
             label: sum(self.__dict__[observer_gain(label, name)] * error for name, error in errors.items())
             for label in state_names(self._model)
         }
-        copy = self._copy(x, dx, u, injected)
+        copy = self._with_own(x, dx, u, injected)
         for name in self._implicit:
             gaps.append(getattr(x, f"e_{name}") - (self._seen(name, x, dx, y) - copy.outputs[name]))
         return (*copy.residuals, *gaps)
@@ -177,7 +177,7 @@ class Observer(Controller):
     def _seen(self, name: str, x: Any, dx: Any, y: Any) -> Any:
         return y.__dict__[name] if name in y.__dict__ else symbol_of(self._model, name, x, dx)
 
-    def _copy(self, x: Any, dx: Any, u: Any, injected: dict[str, Any]) -> Any:
+    def _with_own(self, x: Any, dx: Any, u: Any, injected: dict[str, Any]) -> Any:
         parameters = bound_parameters(self, self._model, self._own, HAT)
         inputs = {name: getattr(u, name) for name in self._model.declaration.inputs if name not in self._unknown}
         return copied(self._model, HAT, parameters, x, dx, inputs, injected)

@@ -10,7 +10,11 @@ one of three ways (argument names choose what is passed; ``x`` values, ``dx`` an
 * ``matrices(self)`` returns linear ``(P_0, P_1, P_2)`` with ``P_0 q + P_1 q' + P_2 q'' = 0``.
 
 ``outputs(self, x, dx, ddx, u)`` returns a dictionary, ``basic_motion(self)`` one with the keys ``x``, ``dx`` and ``u``.
-Any method named ``equations_<how>`` is a further derivation of the same vehicle, compared with the first.
+``possible(self)`` says what values of several parameters may be together (see `ucrit.core.possible`).
+``events(self, x, dx, ddx, u)`` returns what shall be noticed along the motion (see `ucrit.core.events`),
+``drawing(self, x, u)`` what the vehicle looks like (see `ucrit.core.drawing`).
+Any method named ``equations_<how>`` is a further derivation of the same vehicle, compared with the first; a bond graph,
+``bond_graph(self, u)``, is one by `ucrit.bondgraph.equations_bond_graph`.
 """
 
 from __future__ import annotations
@@ -27,6 +31,7 @@ from .declare import Input, Output, Parameter, Quantity, Variable, param, speed
 from .errors import ModelError, UcritError, near_match
 from .made import made, reference, resolve
 from .part import Part, Slot
+from .possible import check_together
 
 ARGUMENTS = {
     "equations": ("x", "dx", "ddx", "u"),
@@ -36,7 +41,10 @@ ARGUMENTS = {
     "constraints": ("x", "dx"),
     "matrices": (),
     "outputs": ("x", "dx", "ddx", "u"),
+    "events": ("x", "dx", "ddx", "u"),
+    "drawing": ("x", "u"),
     "basic_motion": (),
+    "bond_graph": ("u",),
 }
 STATEMENTS = ("equations", "kinetic_energy", "matrices", "closed_loop")
 
@@ -99,8 +107,8 @@ class Model:
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        cls.declaration = _declare(cls)
-        _check_methods(cls)
+        cls.declaration = declared(cls)
+        check_methods(cls)
         cls.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
             [
                 inspect.Parameter(
@@ -114,6 +122,10 @@ class Model:
         )
 
     def __init__(self, **values: Any) -> None:
+        self._fill(values, {})
+
+    def _fill(self, values: Mapping[str, Any], shared: Mapping[str, str]) -> None:
+        """Check values, each and together, and keep them; ``shared`` maps some to a common dimension."""
         declared = type(self).declaration.parameters
         model = type(self).model_id()
         for name in values:
@@ -125,7 +137,8 @@ class Model:
             if value is None:
                 raise UcritError(f"{model}: {parameter.meaning} {name} is missing; it must be {parameter.allowed}")
             checked[name] = parameter.check(value, model)
-        self.__dict__.update(checked, _values=MappingProxyType(checked), _shared=MappingProxyType({}))
+        self.__dict__.update(checked, _values=MappingProxyType(checked), _shared=MappingProxyType(dict(shared)))
+        check_together(self)
 
     def __setattr__(self, name: str, value: Any) -> None:
         raise AttributeError(f"a vehicle does not change: use with_({name}=...) to get a changed copy")
@@ -213,18 +226,19 @@ class Model:
 
     def with_(self, **changes: Any) -> Self:
         """Return a copy with some parameters changed; misspelt names and impossible values are refused."""
-        copy = type(self)(**{**self._values, **changes})
-        kept = {name: dim for name, dim in self._shared.items() if name not in changes}
-        copy.__dict__.update(info=self.info, _shared=MappingProxyType(kept))
-        return copy
+        return self._copy(changes, {name: dim for name, dim in self._shared.items() if name not in changes})
 
     def along(self, dim: str, **changes: Any) -> Self:
         """Return a copy whose given array parameters, all of one length, vary together along one dimension."""
-        copy = self.with_(**changes)
-        sizes = {name: np.size(copy._values[name]) for name in changes}
-        if len(set(sizes.values())) > 1 or 1 in (np.ndim(copy._values[name]) + 1 for name in changes):
+        sizes = {name: np.size(value) for name, value in changes.items()}
+        if len(set(sizes.values())) > 1 or any(np.ndim(value) == 0 for value in changes.values()):
             raise UcritError(f"parameters along '{dim}' must be arrays of one length, got lengths {sizes}")
-        copy.__dict__["_shared"] = MappingProxyType({**copy._shared, **dict.fromkeys(changes, dim)})
+        return self._copy(changes, {**self._shared, **dict.fromkeys(changes, dim)})
+
+    def _copy(self, changes: Mapping[str, Any], shared: Mapping[str, str]) -> Self:
+        copy = object.__new__(type(self))
+        copy._fill({**self._values, **changes}, shared)
+        copy.__dict__["info"] = self.info
         return copy
 
     def with_info(self, **info: str) -> Self:
@@ -255,8 +269,10 @@ def _with_laws(cls: type[Model], laws: tuple[tuple[str, type[Part]], ...]) -> ty
 
 
 def _restore(cls: Any, values: dict[str, Any], shared: dict[str, str], info: Info) -> Model:
-    model: Model = resolve(cls)(**values)
-    model.__dict__.update(info=info, _shared=MappingProxyType(shared))
+    found: type[Model] = resolve(cls)
+    model = object.__new__(found)
+    model._fill(values, shared)
+    model.__dict__["info"] = info
     return model
 
 
@@ -274,7 +290,8 @@ class _Found:
         return MappingProxyType({k: v for k, v in self.by_name.items() if isinstance(v, kind)})
 
 
-def _declare(cls: type[Model]) -> Declaration:
+def declared(cls: type[Model]) -> Declaration:
+    """Collect what a class and its bases declare."""
     found = _Found()
     for base in reversed(cls.__mro__):
         for name, value in vars(base).items():
@@ -308,7 +325,8 @@ def _with_parts(cls: type[Model], declared: Mapping[str, Any]) -> dict[str, Any]
     return flat
 
 
-def _check_methods(cls: type[Model]) -> None:
+def check_methods(cls: type[Model]) -> None:
+    """Raise `ModelError` where a class states no motion, or a method asks for an argument that there is not."""
     stated = [name for name in STATEMENTS if hasattr(cls, name)]
     if cls.declaration.variables and not stated:
         raise ModelError(f"{cls.__name__}: state the motion by one of {', '.join(STATEMENTS)}")
@@ -320,6 +338,16 @@ def _check_methods(cls: type[Model]) -> None:
                     raise ModelError(
                         f"{cls.__name__}.{name}: there is no argument '{argument}'{near_match(argument, allowed)}"
                     )
+
+
+def is_current(model: type[Model], method: str) -> bool:
+    """Tell whether a method is no older in the line of classes than the statement of motion in use.
+
+    One that a base class wrote for its own equations says nothing about a class that states new ones.
+    """
+    lines = [vars(base) for base in model.__mro__]
+    stated = next(i for i, names in enumerate(lines) if any(name in names for name in STATEMENTS))
+    return any(method in names for names in lines[: stated + 1])
 
 
 def argument_names(method: Callable[..., Any]) -> list[str]:

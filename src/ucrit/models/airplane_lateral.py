@@ -5,7 +5,8 @@ Each derivative is that of a force or moment on the airplane with respect to the
 and height it was measured or computed for.
 """
 
-from ..core import Model, cos, input, param, state, tan
+from ..core import Drawing, Model, cos, input, param, state, tan
+from ..parts.shapes import airplane_rear, radius_of_gyration
 
 
 class AirplaneLateral(Model):
@@ -39,6 +40,9 @@ class AirplaneLateral(Model):
 
     one_mode_each = True
 
+    def possible(self):
+        return {"I_xz must lie between -sqrt(I_x I_z) and sqrt(I_x I_z)": self.I_xz**2 < self.I_x * self.I_z}
+
     def equations(self, x, dx, u):
         Y = self.Y_v * x.v + self.Y_p * x.p + self.Y_r * x.r + u.Y
         L = self.L_v * x.v + self.L_p * x.p + self.L_r * x.r + u.L
@@ -49,3 +53,6 @@ class AirplaneLateral(Model):
             self.I_z * dx.r - self.I_xz * dx.p - N,
             dx.phi - (x.p + tan(self.theta_0) * x.r),
         )
+
+    def drawing(self, x):
+        return Drawing("rear", airplane_rear(8 * radius_of_gyration(self.I_x, self.m), x.phi))

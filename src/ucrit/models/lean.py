@@ -6,8 +6,10 @@ p is the momentum of Lagrange's equation for the lean angle, dT/d(theta'): with 
 equations hold the steer angles, not their rates, and a steer angle may jump.
 """
 
-from ..core import Model, cos, input, output, param, sin, speed, state
+from ..core import Drawing, Model, cos, event, input, output, param, sin, speed, state
+from ..parts.rigid_body import inertia_tensor, possible_inertia
 from ..parts.rolling import rolling_motion
+from ..parts.shapes import leaning
 
 
 class Lean(Model):
@@ -32,6 +34,9 @@ class Lean(Model):
     V = output("m/s", "lateral velocity of the ground point")
     r = output("rad/s", "yaw rate")
 
+    def possible(self):
+        return possible_inertia("I_1, I_2, I_3", inertia_tensor(self.I_1, self.I_2, self.I_3))
+
     def rolling(self, u):
         return rolling_motion(self.U, self.a, self.b, u.delta_f, u.delta_r)
 
@@ -53,3 +58,9 @@ class Lean(Model):
     def outputs(self, u):
         V, r = self.rolling(u)
         return {"V": V, "r": r}
+
+    def drawing(self, x):
+        return Drawing("rear", leaning(self.h, x.theta))
+
+    def events(self, x):
+        return {"falls over": event(cos(x.theta), ends=True)}

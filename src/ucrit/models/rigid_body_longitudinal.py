@@ -12,3 +12,6 @@ class RigidBodyLongitudinal(RigidBodySymmetric):
     V = p = r = 0
     Y = L = N = 0
     I_xx = I_zz = I_xz = 0
+
+    def possible(self):
+        return {}  # of three moments of inertia only one matters

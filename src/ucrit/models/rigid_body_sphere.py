@@ -10,3 +10,6 @@ class RigidBodySphere(RigidBodySymmetric):
     I: float = param("kg m^2", "moment of inertia about any axis through the centre of mass", above=0)
     I_xx = I_yy = I_zz = property(lambda self: self.I)
     I_xz = 0
+
+    def possible(self):
+        return {}  # a sphere of any size

@@ -6,7 +6,7 @@ I_yy is the satellite's without the wheel, whose J comes to it; I_xx and I_zz ar
 """
 
 from ..core import param, state
-from ..parts.rigid_body import angular_momentum, components, dot, inertia_tensor, rate_in_space
+from ..parts.rigid_body import angular_momentum, components, dot, inertia_tensor, possible_inertia, rate_in_space
 from .satellite import Satellite
 
 
@@ -20,9 +20,14 @@ class SatelliteDamped(Satellite):
 
     even = ("q", "w")
 
+    def inertia(self):
+        return inertia_tensor(self.I_xx, self.I_yy + self.J, self.I_zz)
+
+    def possible(self):
+        return possible_inertia("I_xx, I_yy + J, I_zz", self.inertia())
+
     def momentum(self, spin, wheel):
-        inertia = inertia_tensor(self.I_xx, self.I_yy + self.J, self.I_zz)
-        H_x, H_y, H_z = angular_momentum(inertia, spin)
+        H_x, H_y, H_z = angular_momentum(self.inertia(), spin)
         return H_x, H_y + self.J * wheel, H_z
 
     def equations(self, x, dx):

@@ -5,7 +5,8 @@ theta is positive when the trailer's rear swings to the left, omega when the pat
 wheels are steered in the same sense as theta.
 """
 
-from ..core import Model, cos, input, output, param, sin, speed, state
+from ..core import Drawing, Model, cos, input, output, param, sin, speed, state
+from ..parts.shapes import trailer
 from ..parts.tires import linear_side_force, slip_angle
 
 
@@ -57,3 +58,7 @@ class TrailerActiveSteering(Model):
 
     def outputs(self, x, u):
         return {"delta": self.steer(x, u), "offset": (self.a + self.b) * sin(x.theta)}
+
+    def drawing(self, x, u):
+        shape = trailer(self.a, self.b, angle=-x.theta, steer=-self.steer(x, u))
+        return Drawing("top", shape, travel=(self.U, 0, -u.omega))

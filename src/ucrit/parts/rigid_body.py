@@ -39,6 +39,30 @@ def inertia_tensor(I_xx: Any, I_yy: Any, I_zz: Any, I_xy: Any = 0, I_xz: Any = 0
     return (I_xx, -I_xy, -I_xz), (-I_xy, I_yy, -I_yz), (-I_xz, -I_yz, I_zz)
 
 
+def is_possible(inertia: Tensor, share: float = 1e-9) -> Any:
+    """Tell whether a body can have a tensor of inertia: no principal moment is above the sum of the other two.
+
+    The second moments of its mass, integrals of x**2, x*y and so on, then form a matrix without a negative
+    eigenvalue, so that no principal minor is negative. Numbers or arrays; ``share`` of the trace is for rounding.
+
+    >>> is_possible(inertia_tensor(2, 1, 1)), is_possible(inertia_tensor(2.1, 1, 1))
+    (True, False)
+    """
+    trace = inertia[0][0] + inertia[1][1] + inertia[2][2]
+    xx, yy, zz = ((trace / 2 - inertia[i][i]) / trace for i in range(3))
+    xy, xz, yz = (-inertia[i][j] / trace for i, j in ((0, 1), (0, 2), (1, 2)))
+    true = (xx >= -share) & (yy >= -share) & (zz >= -share)
+    for one, other, mixed in ((xx, yy, xy), (xx, zz, xz), (yy, zz, yz)):
+        true = true & (one * other - mixed**2 >= -share)
+    determinant = xx * (yy * zz - yz**2) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz)
+    return true & (determinant >= -share)
+
+
+def possible_inertia(names: str, inertia: Tensor) -> dict[str, Any]:
+    """Return the statement that a tensor of inertia is possible, for a model's method ``possible``."""
+    return {f"with {names} no principal moment of inertia may be above the sum of the other two": is_possible(inertia)}
+
+
 def angular_momentum(inertia: Tensor, spin: Vector) -> Vector:
     """Return the angular momentum [N m s] about the centre of mass (Karnopp 2004, eq. (2.18))."""
     return dot(inertia[0], spin), dot(inertia[1], spin), dot(inertia[2], spin)

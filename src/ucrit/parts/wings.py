@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ..core.functions import atan
+from ..core.functions import atan, cos, sin, tanh
 
 
 def angle_of_attack(forward: Any, downward: Any) -> Any:
@@ -75,6 +75,21 @@ def thin_section(alpha: Any, camber: Any = 0) -> tuple[Any, Any]:
     """
     c_l = 2 * math.pi * alpha
     return c_l, -c_l / 4 - math.pi * camber / 4
+
+
+def stalling_lift(alpha: Any, slope: Any = 2 * math.pi, stall: Any = 0.25, sharpness: Any = 50.0) -> Any:
+    """Return the lift coefficient of a section beyond stall too: attached flow that gives way to a flat plate's.
+
+    ``slope * alpha`` below the angle ``stall`` [rad], ``2 sin(alpha)|sin(alpha)| cos(alpha)`` above it; the change
+    takes a few times ``1/sharpness`` (R. W. Beard, T. W. McLain, Small Unmanned Aircraft (2012), eqs. (4.9), (4.10)).
+
+    >>> [round(float(stalling_lift(alpha)), 3) for alpha in (0.05, 0.2, 0.25, 0.4)]
+    [0.314, 1.167, 0.845, 0.281]
+    """
+    beyond, before = ((1 + tanh(sharpness * (side * alpha - stall) / 2)) / 2 for side in (1, -1))
+    plate = 2 * sin(alpha) * abs(sin(alpha)) * cos(alpha)
+    attached = (1 - beyond) * (1 - before)
+    return attached * slope * alpha + (1 - attached) * plate
 
 
 def aerodynamic_center(lift: tuple[Any, Any], moment: tuple[Any, Any]) -> Any:

@@ -10,6 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from ..core.errors import UcritError, near_match
+from ..core.possible import allowed
 
 if TYPE_CHECKING:
     from ..analyses.analyze import Analysis
@@ -63,12 +64,15 @@ def _sensitive(analysis: Analysis) -> list[str]:
     return sorted(known, key=lambda name: -known[name])
 
 
-def map_range(analysis: Analysis, name: str, count: int, path: Locus | None = None) -> Array:
+def map_range(
+    analysis: Analysis, name: str, count: int, path: Locus | None = None, beside: Model | None = None
+) -> Array:
     """Return values of a parameter around the design, reaching beyond its remedy, inside its bounds.
 
-    A parameter that a root locus is drawn along takes the range of that drawing.
+    A parameter that a root locus is drawn along takes the range of that drawing; ``beside`` is the vehicle with the
+    ends of another parameter's range, all of which must be possible together with this one's.
     """
-    declared = type(analysis.vehicle).declaration.parameters[name]
+    declared = allowed(beside or analysis.vehicle, name)
     if path is not None and path.parameter == name:
         return np.asarray(np.linspace(path.values[0], path.values[-1], count))
     present = float(analysis.vehicle.values[name])

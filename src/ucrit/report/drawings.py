@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup
 
@@ -89,9 +89,12 @@ def of_map(analysis: Analysis, asked: Sequence[str] | None, path: Locus | None) 
     names = choices.map_parameters(analysis, asked)
     if names is None:
         return None
-    ranges = {name: choices.map_range(analysis, name, MAP_POINTS, path) for name in names}
-    result = stability_map(analysis.vehicle, **ranges)
     across, up = names
+    first = choices.map_range(analysis, across, MAP_POINTS, path)
+    beside = analysis.vehicle.with_(**{across: first[[0, -1]]})
+    second = choices.map_range(analysis, up, MAP_POINTS, path, beside)
+    ranges: dict[str, Any] = {across: first, up: second}
+    result = stability_map(analysis.vehicle, **ranges)
     description = f"Map of stability over {across} and {up}: stable on {percent(result.share).lstrip('+')} of it."
     return Drawing(
         svg(plot_map(result, vehicle=analysis.vehicle), "map", description),

@@ -43,8 +43,8 @@ def command(vehicle: str, ranges: tuple[str, ...], chosen: str | None, changes: 
     for name in names:
         found = margins(subject.with_(**spans), name)
         if spans:
-            from .sweep import _to_stdout
+            from ..output import to_stdout
 
-            _to_stdout(found)
+            to_stdout(found)
         else:
             click.echo(str(found))

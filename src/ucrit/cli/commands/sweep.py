@@ -2,20 +2,13 @@
 
 from __future__ import annotations
 
-import sys
-import time
-from collections.abc import Iterator
-from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from ..output import to_stdout, writer
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-FORMATS = {".csv": "to_csv", ".nc": "to_netcdf", ".json": "to_json", ".mat": "to_mat"}
+from ..progress import progress
 
 
 @click.command("sweep", short_help="Stability over ranges of parameters, as a table.")
@@ -50,74 +43,19 @@ def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], out
     """
     from ...analyses.sweep import sweep
 
-    write = _writer(output)
+    write = to_stdout if output is None else writer(output, pictures=())
     subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
     read = assignments(ranges, '"U=20:130:12 km/h"')
-    _refuse_both(read, assignments(changes, "a=1.9"))
-    with _progress() as progress:
-        result = sweep(subject, progress=progress, **read)
+    refuse_both(read, assignments(changes, "a=1.9"))
+    with progress("sweep") as advance:
+        result = sweep(subject, progress=advance, **read)
     write(result)
 
 
-def _refuse_both(ranges: dict[str, Any], changes: dict[str, Any]) -> None:
+def refuse_both(ranges: dict[str, Any], changes: dict[str, Any]) -> None:
+    """Refuse a parameter that has both a range and a value."""
     from ...core.errors import UcritError
 
     for name in ranges.keys() & changes.keys():
         given = f"as the range {ranges[name]!r} and as {changes[name]!r}"
         raise UcritError(f"parameter {name} is given twice, {given}")
-
-
-def _writer(output: str | None) -> Callable[[Any], None]:
-    """Return what writes a result; a file ending that is not known is refused before anything is computed."""
-    from ...core.errors import UcritError
-
-    if output is None:
-        return _to_stdout
-    ending = output[output.rfind(".") :] if "." in output else ""
-    if ending not in FORMATS:
-        raise UcritError(f"the output '{output}' must end in {', '.join(FORMATS)}")
-    if ending == ".nc":
-        return lambda result: _to_netcdf(result, output)
-    return lambda result: getattr(result, FORMATS[ending])(output)
-
-
-def _to_stdout(result: Any) -> None:
-    import csv
-
-    columns = list(result.table().columns())
-    writer = csv.writer(sys.stdout, lineterminator="\n")
-    writer.writerow([f"{name} [{unit}]" if unit else name for name, unit, _ in columns])
-    writer.writerows(zip(*(values.tolist() for _, _, values in columns), strict=True))
-
-
-def _to_netcdf(result: Any, path: str) -> None:
-    """Write a netCDF file, whole or not at all."""
-    from ...analyses.convert import write_whole
-
-    content: bytes = bytes(result.to_xarray().to_netcdf(engine="scipy"))
-    write_whole(path, content)
-
-
-@contextmanager
-def _progress() -> Iterator[Callable[[int, int], None]]:
-    """Yield a function that shows a bar on stderr once the work has taken a second, if that is a terminal."""
-    start = time.monotonic()
-    bars: list[Any] = []
-
-    def advance(done: int, total: int) -> None:
-        if not bars and time.monotonic() - start > 1 and done < total:
-            from rich.progress import Progress
-
-            from ..terminal import terminal
-
-            bar = Progress(console=terminal(stderr=True), transient=True)
-            bars.append((bar, bar.add_task("sweep", total=total)))
-            bar.start()
-        for bar, task in bars:
-            bar.update(task, completed=done, total=total)
-
-    try:
-        yield advance
-    finally:
-        for bar, _ in bars:
-            bar.stop()
