@@ -15,7 +15,8 @@ from ..core.errors import UcritError
 from ..core.model import Model
 from ..core.motion import motion
 from ..core.units import to_si
-from .simulate import POINTS, Simulation, simulate
+from .simulate import POINTS, simulate
+from .simulation import Simulation
 
 Array = npt.NDArray[Any]
 
