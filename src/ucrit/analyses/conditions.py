@@ -213,7 +213,7 @@ def _boundaries(factor: PolyElement, functions: Any) -> list[dict[str, Any]]:
     found, ring = [], factor.ring
     for i, generator in enumerate(ring.symbols):
         powers = {m[i] for m in factor.itermonoms()}
-        if generator in functions or any(f.has(generator) for f in functions.values()):
+        if not generator.is_Symbol or generator in functions or any(f.has(generator) for f in functions.values()):
             continue
         if powers in ({0, 1}, {0, 2}):
             power = max(powers)

@@ -161,6 +161,7 @@ def _close(plant: type[Model], controller: type[Controller]) -> type[Model]:
     body |= {"mirror": getattr(plant, "mirror", True) and getattr(controller, "mirror", True)}
     if hasattr(plant, "possible") or hasattr(controller, "possible"):
         body["possible"] = _possible
+    body |= {name: own for name, own in {"events": _events, "drawing": _drawing}.items() if hasattr(plant, name)}
     return type(f"{plant.__name__}With{controller.__name__}", (ClosedLoop,), body)
 
 
@@ -171,6 +172,23 @@ def _free(name: str, taken: Mapping[str, Any]) -> str:
         number += 1
         found = f"{name}_{number}"
     return found
+
+
+def _events(self: ClosedLoop, x: Any, dx: Any, ddx: Any, u: Any) -> Any:
+    """Return the vehicle's events."""
+    groups = {"x": x, "dx": dx, "ddx": ddx, "u": u}
+    driven = {name: self._driven(groups)[_reaching(name)] for name in self._controller.drives}
+    return call(self._bound(self._plant).events, {**groups, "u": Names("u", {**_named(u), **driven})})
+
+
+def _drawing(self: ClosedLoop, x: Any, u: Any) -> Any:
+    """Return the vehicle's drawing, its driven inputs at rest: a wheel is shown straight."""
+    rest = dict.fromkeys(self._controller.drives, 0.0)
+    return call(self._bound(self._plant).drawing, {"x": x, "u": Names("u", {**_named(u), **rest})})
+
+
+def _named(group: Any) -> dict[str, Any]:
+    return {name: value for name, value in vars(group).items() if not name.startswith("_")}
 
 
 def _possible(self: ClosedLoop) -> dict[str, Any]:
