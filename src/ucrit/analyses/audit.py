@@ -39,10 +39,6 @@ LINEAR = 1e-9
 TWIN = 0.02
 """Share of their modulus by which the two of an almost double root differ at most."""
 
-STRIDES = (-2, -1, 1, 2)
-WEIGHTS = np.array([1, -8, 8, -1]) / 12
-"""Central differences of fourth order."""
-
 
 @dataclass(frozen=True)
 class Finding:
@@ -199,18 +195,9 @@ def _is_linear(made: Motion, w: Array, u: Array, arguments: Any) -> bool:
     return bool(np.all(np.abs(at[2] - 2 * at[1] + at[0]) <= LINEAR * size))
 
 
-def _slopes(made: Motion, w: Array, u: Array, arguments: Any) -> Array:
-    """Return the slopes of the rates by central differences of fourth order."""
-    n, strides = len(w), np.array(STRIDES)
-    h = 1e-5 * np.maximum(np.abs(w), 1)
-    moved = w[:, None, None] + np.eye(n)[:, :, None] * h[None, :, None] * strides
-    rates = made.rhs(moved, np.broadcast_to(u[:, None, None], (len(u), *moved.shape[1:])), arguments)
-    return np.asarray(rates @ WEIGHTS / h)
-
-
 def _fitted(vehicle: Model, made: Motion, w: Array, u: Array, moving: int, size: float) -> list[complex]:
     """Start each mode that is no rigid position, follow all of them together, and fit their exponents."""
-    slopes = _slopes(made, w, u, vehicle.arguments())
+    slopes = made.slopes(w, u, vehicle.arguments()).A  # they only choose how motions start
     values, vectors = np.linalg.eig(slopes)
     order = np.argsort(-np.abs(values), kind="stable")[:moving]
     upper = [k for k in order if values[k].imag >= 0]
