@@ -22,7 +22,13 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).resolve().parent
 VEHICLES = HERE / "data" / "vehicles"
+BONDS = ".bonds"
+"""Ending of files that hold a bond graph as text."""
 PUBLISHED = HERE / "data" / "published"
+TIRES = HERE / "data" / "tires"
+
+AS_MEASURED = ":measured"
+"""Behind the name of a tire file: with the shifts of the one tire that was measured."""
 
 
 @cache
@@ -47,11 +53,13 @@ def vehicle_names() -> tuple[str, ...]:
 
 
 def find_model(name: str, folder: Path | None = None) -> type[Model]:
-    """Return a model class by its catalogue name, or from a Python file (``"my_model.py"``).
+    """Return a model class by its catalogue name, from a Python file or from a bond graph's (``"my_graph.bonds"``).
 
     A file may hold several models: ``"my_model.py:Caster"`` picks one. Relative paths start at ``folder``.
     """
     path, _, cls = name.partition(":") if ".py" in name else (name, "", "")
+    if path.endswith(BONDS):
+        return model_from_file((folder or Path()) / path, path)
     if path.endswith(".py"):
         return _from_file((folder or Path()) / path, cls)
     key = name.replace("_", "-")
@@ -61,17 +69,84 @@ def find_model(name: str, folder: Path | None = None) -> type[Model]:
     return models_in(module)[0]
 
 
+def model_from_file(path: Path, where: str) -> type[Model]:
+    """Return the model that a bond graph's text file describes; ``where`` names it in messages."""
+    from .bondgraph.model import model_from_text
+
+    text, stem = read_text(path), path.stem.replace("-", "_")
+    return model_from_text(text, stem if stem.isidentifier() else "BondGraph", where)
+
+
 def part_names(kind: type[Part]) -> tuple[str, ...]:
     """Names of all laws in the catalogue that are of a kind."""
     return tuple(sorted(_laws(kind)))
 
 
 def find_part(name: str, kind: type[Part], folder: Path | None = None) -> type[Part]:
-    """Return the law of a name that is of the kind which a slot takes; relative paths start at ``folder``."""
+    """Return the law of a name that is of the kind which a slot takes.
+
+    A tire may also be a property file (``"mine.tir"``) or one that is shipped, without the shifts of the one tire that
+    was measured, or with them (``"mine.tir:measured"``). Relative paths start at ``folder``.
+    """
     laws = _laws(kind)
-    if name not in laws:
-        raise UcritError(f"there is no {kind.__name__.lower()} law '{name}'{near_match(name, laws)}")
-    return laws[name]
+    if name in laws:
+        return laws[name]
+    file = name.removesuffix(AS_MEASURED)
+    if kind.__name__ == "Tire" and (file.lower().endswith(".tir") or file in tire_names()):
+        law: type[Part] = tire_file(file, folder).law(symmetric=file == name)
+        return law
+    shipped = tire_names() if kind.__name__ == "Tire" else ()
+    raise UcritError(f"there is no {kind.__name__.lower()} law '{name}'{near_match(name, [*laws, *shipped])}")
+
+
+def tire_names() -> tuple[str, ...]:
+    """Names of all tires that are shipped as property files.
+
+    >>> "pacejka-205-60r15" in tire_names()
+    True
+    """
+    return tuple(sorted(e.name[:-4] for e in os.scandir(TIRES) if e.name.endswith(".tir")))
+
+
+def tire_file(name: str, folder: Path | None = None) -> Any:
+    """Read a tire property file, shipped by its name or any by its path: a `ucrit.parts.tires.tir.TirFile`."""
+    read_tir: Any = importlib.import_module("ucrit.parts.tires.tir").read_tir
+    if name in tire_names():
+        return read_tir(TIRES / f"{name}.tir", name)
+    return read_tir((folder or Path()) / name, name)
+
+
+def tire(name: str, **parameters: Any) -> Any:
+    """Return a tire: a law of the catalogue with its parameters, or a property file's.
+
+    Parameters
+    ----------
+    name
+        Name of a law (``"brush"``), of a shipped tire (``"pacejka-205-60r15"``), or the path of a ``.tir`` file; with
+        ``:measured`` behind it, a file's tire keeps the shifts of the one that was measured.
+    parameters
+        Values [SI, or text with a unit] of the law's parameters.
+
+    Returns
+    -------
+    ucrit.parts.tires.Tire
+
+    Raises
+    ------
+    UcritError
+        If there is no such law or file, or a value is impossible.
+
+    Examples
+    --------
+    >>> round(float(tire("pacejka-205-60r15:measured").side_force(4000, 0.05)), 3)
+    -2084.607
+    >>> round(float(tire("brush", C="1 kN/deg", mu=0.3).side_force(4000, 0.05)), 1)
+    -1189.9
+    """
+    if not isinstance(name, str):
+        raise UcritError(f"a tire is told by its name or file, got {type(name).__name__}")
+    kind: type[Part] = importlib.import_module("ucrit.parts.tires").Tire
+    return find_part(name, kind)(**parameters)
 
 
 def _laws(kind: type[Part]) -> dict[str, type[Part]]:
@@ -107,12 +182,36 @@ def find_controller(name: str) -> type[Controller]:
 
 
 def controlled(model: type[Model], controllers: tuple[str, ...]) -> type[Model]:
-    """Return a model under the control of controllers of the catalogue."""
+    """Return a model under the control of controllers: names of the catalogue, or makers with arguments.
+
+    Makers are those of `ucrit.control.MAKERS`: ``"lag(delta_f)"``, ``"state-feedback(delta_f, delta_r)"``. Each is made
+    for the model and the controllers before it.
+    """
     if not controllers:
         return model
     from .control import closed
 
-    return closed(model, *map(find_controller, controllers))
+    for name in controllers:
+        model = closed(model, _controller(name, model))
+    return model
+
+
+def _controller(name: str, model: type[Model]) -> type[Controller]:
+    """Return a controller by name, or the one that a maker makes for a model."""
+    maker, bracket, rest = name.partition("(")
+    if not bracket:
+        return find_controller(name)
+    from .control import MAKERS
+
+    key = maker.strip().replace("_", "-")
+    if key not in MAKERS or not rest.rstrip().endswith(")"):
+        known = ", ".join(f"{each}(...)" for each in MAKERS)
+        raise UcritError(f"there is no controller '{name}'{near_match(key, MAKERS)}; made for a model are {known}")
+    arguments = [word.strip() for word in rest.rstrip()[:-1].split(",") if word.strip()]
+    try:
+        return MAKERS[key](model, *arguments)
+    except TypeError:
+        raise UcritError(f"controller '{name}': {len(arguments)} arguments are not what {key} takes") from None
 
 
 def models_in(module: ModuleType) -> list[type[Model]]:

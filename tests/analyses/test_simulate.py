@@ -105,6 +105,8 @@ def test_tolerance_is_what_it_says():
         ({"until": 1, "times": [1, 0]}, "times must ascend"),
         ({"until": 1, "times": "soon"}, "times must be a list of numbers"),
         ({"until": 1, "tolerance": 1e-20}, "tolerance must be within"),
+        ({"until": 1, "method": "Radaw"}, "there is no method 'Radaw'; did you mean 'Radau'?"),
+        ({"until": 1, "initial": {"theta": [[1]]}}, "initial theta must be a number or a one-dimensional array"),
     ],
 )
 def test_mistakes_are_refused_in_a_sentence(arguments, words):
@@ -123,9 +125,70 @@ def test_input_that_is_no_number_is_told_with_its_time():
         simulate(load("bmw-320i"), 1, inputs={"delta_f": lambda t: float("nan")})
 
 
-def test_arrays_are_refused():
-    with pytest.raises(UcritError, match="give scalar parameters"):
-        simulate(load("bmw-320i").with_(m=[1000, 2000]), 1)
+def test_arrays_of_parameters_and_starts_are_followed_together_as_one_by_one():
+    caravan, times = load("caravan"), np.linspace(0, 3, 7)
+    batch = simulate(caravan.with_(U=[10.0, 30.0]), 3, {"theta": [1e-3, 0.1, 0.4]}, times=times)
+    assert batch.values.shape == (2, 3, 7, 4)
+    for i, U in enumerate((10, 30)):
+        for k, theta in enumerate((1e-3, 0.1, 0.4)):
+            one = simulate(caravan.with_(U=U), 3, {"theta": theta}, times=times)
+            assert np.abs(batch["theta"][i, k] - one["theta"]).max() < 1e-10
+    frame = batch.to_dataframe()
+    assert list(frame.columns[:3]) == ["U", "initial theta", "time"]
+    assert len(frame) == 2 * 3 * 7
+    assert batch.to_xarray()["x"].dims == ("U", "initial theta", "time")
+
+
+def test_array_parameters_reach_outputs_and_inputs():
+    car = load("bmw-320i")
+    many = simulate(car.with_(m=[1000, 2000]), 1, inputs={"delta_f": "step 1 deg at 0.5 s"}, times=[0, 1])
+    for k, m in enumerate((1000, 2000)):
+        one = simulate(car.with_(m=m), 1, inputs={"delta_f": "step 1 deg at 0.5 s"}, times=[0, 1])
+        assert many["a_y"][k] == pytest.approx(one["a_y"], rel=1e-9)
+    assert many["delta_f"].shape == (2, 2)
+
+
+def test_dense_output_is_the_motion_at_other_times():
+    mass = load("driven-mass").with_(b=0)
+    found, at = simulate(mass, 10, {"x": 1}), np.random.default_rng(3).uniform(0, 10, 50)
+    assert np.abs(found.at(at)["x"] - np.cos(2 * at)).max() < 1e-11
+    assert found.at(3)["x"].shape == (1,)
+    with pytest.raises(UcritError, match="times must be within 0 s and 10 s, got 11"):
+        found.at(11)
+    with pytest.raises(UcritError, match="a batch is known at its times only"):
+        simulate(mass.with_(m=[1, 2]), 1).at(0.5)
+
+
+@pytest.mark.parametrize("method", ["Radau", "BDF", "LSODA"])
+def test_other_methods_follow_the_same_motion(method):
+    caravan = load("caravan")
+    found = simulate(caravan, 2, {"theta": 0.2}, times=[1, 2], method=method)
+    expected = simulate(caravan, 2, {"theta": 0.2}, times=[1, 2])
+    assert found.method == method
+    assert np.abs(found["theta"] - expected["theta"]).max() < 1e-6
+
+
+def test_implicit_methods_follow_a_batch():
+    caravan = load("caravan")
+    batch = simulate(caravan.with_(U=[10, 20]), 1, {"theta": 0.2}, times=[1], method="Radau", tolerance=1e-7)
+    one = simulate(caravan.with_(U=20), 1, {"theta": 0.2}, times=[1])
+    assert batch["theta"][1] == pytest.approx(one["theta"], rel=1e-5)
+
+
+def test_a_stiff_motion_changes_to_an_implicit_method_by_itself():
+    mass = load("driven-mass").with_(m=1, b=2e4, k=1e4)
+    found = simulate(mass, 5, {"x": 1}, times=[1, 5])
+    slow = 1e4 * (1 - np.sqrt(1 - 1e4 / 1e8))
+    assert found.method == "Radau"
+    assert found["x"] == pytest.approx(np.exp(-slow * found.times), rel=1e-4)
+    assert simulate(mass.with_(b=0.2, k=1), 5, {"x": 1}).method == "DOP853"
+
+
+def test_progress_is_told():
+    told = []
+    simulate(load("caravan"), 2, {"theta": 0.1}, progress=lambda done, last: told.append((done, last)))
+    assert told[-1] == (2, 2)
+    assert [t for t, _ in told] == sorted(t for t, _ in told)
 
 
 def test_unknown_name_in_a_result():

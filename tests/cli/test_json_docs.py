@@ -76,7 +76,7 @@ def test_show_and_list_have_the_documented_entries(run: Run) -> None:
     }
     assert set(json.loads(run("show", "caravan", "--json").stdout)) == documented
     listed = json.loads(run("list", "--json").stdout)
-    assert set(listed) == {"schema", "models", "vehicles"}
+    assert set(listed) == {"schema", "models", "vehicles", "controllers"}
     assert set(listed["models"][0]) == {"name", "title", "model"}
 
 
@@ -89,3 +89,10 @@ def test_compare_has_the_documented_entries(run: Run) -> None:
     for name, vehicle in zip(("understeering-car", "navion-plane"), printed["vehicles"], strict=True):
         same(vehicle, json.loads(run("analyze", name, "--json").stdout))
     assert {"parameter": "I_z", "unit": "kg m^2", "values": [2500, None]} in printed["differing"]
+
+
+def test_the_audits_entries_are_documented(run: Run) -> None:
+    section = next(part for part in DOCUMENT.split("\n## ") if part.startswith("`ucrit analyze --audit"))
+    rows = re.findall(r"^\| (`audit.*?) \|", section, re.MULTILINE)
+    documented = {name for row in rows for name in re.findall(r"`audit\.([^`]+)`", row)}
+    assert set(paths(json.loads(run("analyze", "caravan", "--audit", "--json").stdout)["audit"])) == documented

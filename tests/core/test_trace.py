@@ -125,3 +125,22 @@ def test_an_algebraic_unknown_is_eliminated():
     assert system.explicit.orders == (2, 0)
     m, k = system.traced.parameters.values()
     assert system.polynomial.expressions == (k, 0, m)
+
+
+def test_a_group_is_one_thing_to_polynomials_and_its_content_to_everything_else():
+    import sympy as sp
+
+    from ucrit.core import typeset
+    from ucrit.core.functions import grouped
+    from ucrit.core.rings import function_symbols
+
+    a, b = sp.symbols("a b", positive=True)
+    group = grouped(a / b + 1)
+    assert len(function_symbols([3 * group**2 + a], {})[0]) == 1
+    assert next(iter(function_symbols([group], {})[0].values())).is_positive
+    assert sp.diff(group**2, a).subs({a: 2, b: 4}) == 2 * sp.Rational(3, 2) / 4
+    assert float(group.subs({a: 2, b: 4})) == 1.5
+    assert str(2 * group) == "2*(a/b + 1)"
+    assert "Group" not in sp.latex(group) + sp.mathml(group, printer="presentation") + typeset.text(group)
+    for module in ("numpy", "mpmath", "math"):
+        assert sp.lambdify([a, b], 2 * group, module)(2, 4) == 3

@@ -6,7 +6,7 @@ import math
 import os
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..catalogue import load
 from ..core.compiled import direction
@@ -18,6 +18,9 @@ from .modes import Mode, modes
 from .remedies import Remedy, remedies
 from .verdict import Verdict, verdict
 from .wording import describe
+
+if TYPE_CHECKING:
+    from .audit import Audit
 
 SCHEMA = 1
 """Version of the dictionary that `Analysis.to_dict` returns; it grows when an entry changes its meaning."""
@@ -48,6 +51,8 @@ class Analysis:
         Those of them that fail at the asked speed.
     remedies
         The smallest change of each parameter alone that makes it stable up to the asked speed.
+    audit
+        The verdict at the asked speed checked by the non-linear equations, where that was asked for.
     """
 
     vehicle: Model
@@ -60,6 +65,7 @@ class Analysis:
     why_no_criteria: str
     failing: tuple[Criterion, ...]
     remedies: tuple[Remedy, ...]
+    audit: Audit | None = None
 
     @property
     def sentence(self) -> str:
@@ -69,6 +75,7 @@ class Analysis:
     def to_dict(self) -> dict[str, Any]:
         """Return the facts as plain data, in the documented schema; infinite and undefined numbers are ``None``."""
         info, model = self.vehicle.info, type(self.vehicle)
+        checked = {} if self.audit is None else {"audit": self.audit.to_dict()}
         return {
             "schema": SCHEMA,
             "vehicle": {
@@ -90,6 +97,7 @@ class Analysis:
             "critical": [_critical(c) for c in self.critical or ()],
             "criteria": [_criterion(c, c in self.failing) for c in self.criteria or ()],
             "remedies": [_remedy(r) for r in self.remedies],
+            **checked,
         }
 
     def __str__(self) -> str:
@@ -105,6 +113,8 @@ def analyze(
     vehicle: Model | str | os.PathLike[str],
     upto: float | str | None = None,
     changes: Mapping[str, Any] | None = None,
+    *,
+    audit: bool = False,
 ) -> Analysis:
     """Judge a vehicle up to a speed: verdict, modes, critical speeds, criteria and remedies.
 
@@ -116,6 +126,8 @@ def analyze(
         Speed [m/s, or text with a unit] up to which it is judged; the vehicle's own by default.
     changes
         Parameter values that replace the vehicle's.
+    audit
+        Whether the verdict at the asked speed is checked by the non-linear equations too, see `audit`.
 
     Raises
     ------
@@ -148,7 +160,14 @@ def analyze(
         why_no_criteria=why,
         failing=found_criteria.failing(subject) if found_criteria else (),
         remedies=() if stable else remedies(subject),
+        audit=_audit(subject) if audit else None,
     )
+
+
+def _audit(vehicle: Model) -> Audit:
+    from .audit import audit
+
+    return audit(vehicle)
 
 
 def _subject(vehicle: Model | str | os.PathLike[str], upto: Any, changes: Mapping[str, Any] | None) -> Model:

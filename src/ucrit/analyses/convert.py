@@ -130,6 +130,13 @@ class Tabular:
         writer.writerows(zip(*(values.tolist() for _, _, values in columns), strict=True))
         write_whole(path, text.getvalue().encode())
 
+    def to_netcdf(self, path: PathLike) -> None:
+        """Write a netCDF file of version 3, whole or not at all.
+
+        Raises `MissingExtraError` where xarray is not installed.
+        """
+        write_whole(path, bytes(self.to_xarray().to_netcdf(engine="scipy")))
+
     def to_json(self, path: PathLike | None = None) -> str:
         """Return the result as JSON text, and write it if a path is given; nan and infinity become null."""
         table = self.table()

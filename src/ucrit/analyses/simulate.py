@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -14,15 +13,15 @@ from ..core.errors import UcritError, near_match
 from ..core.model import Model
 from ..core.motion import Motion, motion
 from ..core.units import to_si
-from .convert import Series, Table, Tabular
+from .follow import METHODS, Course, Drive, Follower
+from .manoeuvre_text import parse_shape
+from .manoeuvres import Shape, Signal, constant
+from .simulation import Happening, Simulation
 
 Array = npt.NDArray[Any]
 
 POINTS = 400
 """Times of a result that are not given."""
-
-TOLERANCE = 1e-12
-"""Relative error of a step; the absolute one is a thousandth of it, in SI units."""
 
 SMALLEST, LARGEST = 1e-13, 1e-2
 """Tolerances that can be asked for."""
@@ -31,79 +30,48 @@ EXACT = 1e-9
 """Share of its terms up to which a constraint may be broken at the start."""
 
 
-@dataclass(frozen=True)
-class Simulation(Tabular):
-    """Motion of a vehicle in time.
-
-    Attributes
-    ----------
-    times
-        [s], shape (T,).
-    states, outputs, inputs
-        Names of the columns of the three arrays, in order.
-    values, output_values, input_values
-        Shapes (T, states), (T, outputs) and (T, inputs) [SI].
-    """
-
-    vehicle: Model
-    times: Array
-    states: tuple[str, ...]
-    outputs: tuple[str, ...]
-    inputs: tuple[str, ...]
-    values: Array
-    output_values: Array
-    input_values: Array
-
-    def __getitem__(self, name: str) -> Array:
-        """Return a state, output or input over time, shape (T,)."""
-        found = {series.name: series.values for series in self.table().data}
-        if name not in found:
-            raise UcritError(f"the simulation has no '{name}'{near_match(name, found)}")
-        return found[name]
-
-    def table(self) -> Table:
-        """Return states, outputs and inputs over time with their units."""
-        declared = type(self.vehicle).declaration
-        rates = {name: (name.rstrip("'"), name.count("'")) for name in self.states}
-        units = {name: declared.variables[base].state_unit(k) for name, (base, k) in rates.items()}
-        units |= {name: quantity.unit for name, quantity in (*declared.outputs.items(), *declared.inputs.items())}
-        names = (*self.states, *self.outputs, *self.inputs)
-        columns = np.concatenate([self.values, self.output_values, self.input_values], axis=1).T
-        data = tuple(Series(n, ("time",), v, units[n]) for n, v in zip(names, columns, strict=True))
-        return Table("simulation", self.vehicle, (Series("time", ("time",), self.times, "s"),), data, ("time",))
-
-
 def simulate(
     vehicle: Model,
     until: float | str,
-    initial: Mapping[str, float | str] | None = None,
-    inputs: Mapping[str, float | str | Callable[[float], float]] | None = None,
+    initial: Mapping[str, Any] | None = None,
+    inputs: Mapping[str, float | str | Shape | Callable[[float], float]] | None = None,
     *,
     times: Any = None,
-    tolerance: float = TOLERANCE,
+    tolerance: float | None = None,
+    method: str = "auto",
+    progress: Callable[[float, float], None] | None = None,
 ) -> Simulation:
     """Follow a vehicle's non-linear motion from time 0.
 
     Parameters
     ----------
     vehicle
-        With scalar parameters.
+        Its array parameters span leading dimensions of the result.
     until
         Last time [s, or text with a unit].
     initial
         Values of states at time 0, by name: ``theta`` for a variable, ``theta'`` for its rate. The others are those of
-        the basic motion.
+        the basic motion. A one-dimensional array spans a dimension of its own, behind those of the vehicle.
     inputs
-        Values of inputs by name, constant or functions of time; the others are those of the basic motion.
+        Values of inputs by name: constant; a `Step`, `Ramp`, `Sine`, `SineWithDwell`, `Pulse`, `Gust` or a
+        `Measured` table, whose kinks are met exactly, or such a shape as text (``"step 2 deg at 1 s"``); or a smooth
+        function of time.
+        The others are those of the basic motion.
     times
-        Times of the result [s]; by default 400 from 0 to the last.
+        Times of the result [s]; by default 400 from 0 to the last, or to the event that ends the motion.
     tolerance
-        Relative error of each step.
+        Relative error of each step, the absolute one a thousandth of it in SI units; by default 1e-12, and 1e-9 where
+        the method is implicit. The worst member of a batch keeps it, as far as double precision goes.
+    method
+        ``"DOP853"``, ``"Radau"``, ``"BDF"`` or ``"LSODA"`` of SciPy, the implicit ones with exact slopes. ``"auto"``
+        begins with the first, and goes over to Radau where a single motion proves stiff.
+    progress
+        Called now and then with the time reached and the last one.
 
     Returns
     -------
     Simulation
-        By the method of Dormand and Prince of order 8 (E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary
+        By default by the method of Dormand and Prince of order 8 (E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary
         Differential Equations I (1993), section II.10). A constraint is kept as well as at the start.
 
     Raises
@@ -118,52 +86,63 @@ def simulate(
     >>> [round(float(angle), 4) for angle in falling["theta"]]
     [0.0175, 0.0371]
     """
-    if vehicle.dims:
-        raise UcritError("simulate follows one vehicle: give scalar parameters")
-    if not SMALLEST <= tolerance <= LARGEST:
+    if tolerance is not None and not SMALLEST <= tolerance <= LARGEST:
         raise UcritError(f"tolerance must be within {SMALLEST:g} and {LARGEST:g}, got {tolerance!r}")
-    made, arguments = motion(type(vehicle)), vehicle.arguments()
-    last = _value(until, "s", f"{type(vehicle).model_id()}: time until")
+    if method not in METHODS:
+        raise UcritError(f"there is no method '{method}'{near_match(str(method), METHODS)}")
+    model, made = type(vehicle), motion(type(vehicle))
+    last = _value(until, "s", f"{model.model_id()}: time until")
     at = _times(times, last)
-    basic, steady = made.basic(arguments)
-    start, drive = _start(vehicle, made, basic, initial or {}), _drive(vehicle, steady, inputs or {})
-    _refuse_broken_constraints(vehicle, start, drive(0.0))
-    values = _followed(vehicle, start, drive, last, at, tolerance)
-    driven = np.array([drive(t) for t in at]).reshape(len(at), len(steady)).T
-    outputs = made.outputs(values, driven, arguments).reshape(-1, len(at))
-    declared = type(vehicle).declaration
+    given = _starts(vehicle, made, initial or {})
+    spans = {label: value for label, value in given.items() if value.ndim}
+    arguments = tuple(
+        np.reshape(a, (*np.shape(a), *(1,) * len(spans))) if np.ndim(a) else a for a in vehicle.arguments()
+    )
+    lead = (*(len(d) for d in vehicle.dims.values()), *map(len, spans.values()))
+    basic, steady = (np.broadcast_to(_spread(v, len(lead)), (len(v), *lead)) for v in made.basic(arguments))
+    start = _start(made, basic, given, list(spans))
+    drive = Drive(_signals(vehicle, steady, inputs or {}, last), lead)
+    _fill_steady(drive, steady, inputs or {}, vehicle)
+    _refuse_broken_constraints(vehicle, made, start, drive.around(0.0)(0.0), arguments)
+    wanted = (np.linspace(0, last, POINTS) if at is None else at) if lead else None
+    where = f"{model.model_id()}: the motion cannot be followed until {last:g} s"
+    options: Any = {"tolerance": tolerance, "method": method, "where": where, "progress": progress}
+    course = Follower(made, arguments, start, drive, last, times=wanted, **options).run()
+    return _result(vehicle, made, course, arguments, at if wanted is None else wanted, last, spans)
+
+
+def _result(
+    vehicle: Model, made: Motion, course: Course, arguments: Any, at: Array | None, last: float, spans: dict[str, Array]
+) -> Simulation:
+    """Return a course at the wanted times, of a single motion that ended up to its end."""
+    events = tuple(
+        Happening(c.name, c.time, dict(zip(made.labels, map(float, c.states), strict=True)), c.ends, c.member)
+        for c in sorted(course.crossings, key=lambda c: c.time)
+    )
+    declared, ended = type(vehicle).declaration, ""
+    if course.stretches:
+        ended = next((e.name for e in events if e.ends), "")
+        end = float(course.alive_until)
+        at = np.linspace(0, end, POINTS) if at is None else np.append(at[at < end], end) if ended else at
+        values, driven = course.at(at)
+    else:
+        assert at is not None
+        values, driven = course.values, course.inputs
+        arguments = [a[..., None] if np.ndim(a) else a for a in arguments]
+    with np.errstate(invalid="ignore"):
+        outputs = made.outputs(values, driven, arguments).reshape(len(declared.outputs), *values.shape[1:])
+    states, outputs, driven = (np.moveaxis(v, 0, -1) for v in (values, outputs, driven))
     names = made.labels, tuple(declared.outputs), tuple(declared.inputs)
-    return Simulation(vehicle, at, *names, values.T, outputs.T, driven.T)
+    return Simulation(vehicle, at, *names, states, outputs, driven, events, ended, course.method, spans, course)
 
 
-def _followed(
-    vehicle: Model, start: Array, drive: Callable[[float], Array], last: float, times: Array, tolerance: float
-) -> Array:
-    """Return the states, one a row, at given times of a motion that goes on to the last."""
-    from scipy.integrate import solve_ivp
-
-    made, arguments = motion(type(vehicle)), vehicle.arguments()
-
-    def rates(t: float, w: Array) -> Array:
-        return made.rhs(w, drive(t), arguments)
-
-    where = f"{type(vehicle).model_id()}: the motion cannot be followed until {last:g} s"
-    limits = {"rtol": tolerance, "atol": 1e-3 * tolerance}
-    try:
-        with np.errstate(all="ignore"):
-            found = solve_ivp(rates, (0, last), start, method="DOP853", t_eval=times, **limits)
-    except np.linalg.LinAlgError:
-        raise UcritError(f"{where}: the equations cannot be solved for the accelerations") from None
-    if not (found.success and np.isfinite(found.y).all()):
-        raise UcritError(f"{where}: it grows without bound or meets a singularity")
-    return np.asarray(found.y)
-
-
-def _times(given: Any, last: float) -> Array:
+def _times(given: Any, last: float) -> Array | None:
     if not last > 0:
         raise UcritError(f"time until must be above 0 s, got {last:g} s")
+    if given is None:
+        return None
     try:
-        at = np.linspace(0, last, POINTS) if given is None else np.atleast_1d(np.asarray(given, dtype=float))
+        at = np.atleast_1d(np.asarray(given, dtype=float))
     except (TypeError, ValueError):
         raise UcritError(f"times must be a list of numbers, got {given!r}") from None
     if at.ndim != 1 or not at.size or not np.all((at >= 0) & (at <= last)) or np.any(np.diff(at) <= 0):
@@ -171,38 +150,72 @@ def _times(given: Any, last: float) -> Array:
     return at
 
 
-def _start(vehicle: Model, made: Motion, basic: Array, initial: Mapping[str, Any]) -> Array:
-    """Return the state at time 0."""
-    start, variables = basic.copy(), type(vehicle).declaration.variables
+def _spread(values: Array, axes: int) -> Array:
+    """Append axes of length 1 behind the first until there are as many as asked for."""
+    return values.reshape(*values.shape, *(1,) * (axes - values.ndim + 1))
+
+
+def _starts(vehicle: Model, made: Motion, initial: Mapping[str, Any]) -> dict[str, Array]:
+    """Return given initial values [SI], numbers or one-dimensional arrays."""
+    found, variables = {}, type(vehicle).declaration.variables
     for label, value in initial.items():
         thing = f"{type(vehicle).model_id()}: initial {label}"
         if label not in made.labels:
             raise UcritError(f"{thing}: there is no such state{near_match(label, made.labels)}")
         unit = variables[label.rstrip("'")].state_unit(label.count("'"))
-        start[made.labels.index(label)] = _value(value, unit, thing)
+        many = isinstance(value, list | tuple | np.ndarray) and np.ndim(value) > 0
+        if many and (np.ndim(value) != 1 or not len(value)):
+            raise UcritError(f"{thing} must be a number or a one-dimensional array, got {value!r}")
+        found[label] = np.array([_value(v, unit, thing) for v in value] if many else _value(value, unit, thing))
+    return found
+
+
+def _start(made: Motion, basic: Array, given: Mapping[str, Array], spans: list[str]) -> Array:
+    """Return the state at time 0, shape (states, ...)."""
+    start = np.array(basic)
+    for label, value in given.items():
+        axis = [1] * len(spans)
+        if label in spans:
+            axis[spans.index(label)] = -1
+        start[made.labels.index(label)] = value.reshape(axis) if spans else value
     return start
 
 
-def _drive(vehicle: Model, steady: Array, inputs: Mapping[str, Any]) -> Callable[[float], Array]:
-    """Return the inputs as a function of time."""
+def _signals(vehicle: Model, steady: Array, inputs: Mapping[str, Any], last: float) -> list[Signal]:
+    """Return the given inputs as functions of time, without what the basic motion adds."""
     declared, model = type(vehicle).declaration.inputs, type(vehicle).model_id()
-    constant, varying = steady.copy(), {}
+    found = dict.fromkeys(declared, constant(0.0))
     for name, value in inputs.items():
         if name not in declared:
             raise UcritError(f"{model}: there is no input '{name}'{near_match(name, declared)}")
-        place = list(declared).index(name)
-        if callable(value):
-            varying[place] = (value, declared[name])
+        quantity, thing = declared[name], f"{model}: input {name}"
+        shape = parse_shape(value, thing) if isinstance(value, str) else value
+        if isinstance(shape, Shape):
+            found[name] = shape.signal(quantity, thing, last)
+        elif callable(value):
+            found[name] = Signal((), (_checked(value, quantity, model),))
         else:
-            constant[place] = _value(value, declared[name].unit, f"{model}: input {name}")
+            found[name] = constant(_value(value, quantity.unit, thing))
+    return list(found.values())
 
-    def drive(t: float) -> Array:
-        u = constant.copy()
-        for place, (function, quantity) in varying.items():
-            u[place] = _number(function(t), quantity, model, t)
-        return u
 
-    return drive
+def _is_relative(value: Any) -> bool:
+    shape = parse_shape(value, "") if isinstance(value, str) else value
+    return isinstance(shape, Shape) and shape.relative
+
+
+def _fill_steady(drive: Drive, steady: Array, inputs: Mapping[str, Any], vehicle: Model) -> None:
+    """Add to the signals what inputs are on the basic motion, unless they are given as a whole."""
+    for place, name in enumerate(type(vehicle).declaration.inputs):
+        if name not in inputs or _is_relative(inputs[name]):
+            drive.offsets[place] = steady[place]
+
+
+def _checked(function: Callable[[float], float], quantity: Quantity, model: str) -> Callable[[float], float]:
+    def value(t: float) -> float:
+        return _number(function(t), quantity, model, t)
+
+    return value
 
 
 def _value(value: Any, unit: str, thing: str) -> float:
@@ -223,23 +236,11 @@ def _number(value: Any, quantity: Quantity, model: str, t: float) -> float:
     return number
 
 
-def _refuse_broken_constraints(vehicle: Model, start: Array, u: Array) -> None:
+def _refuse_broken_constraints(vehicle: Model, made: Motion, start: Array, u: Array, arguments: Any) -> None:
     """Refuse a start that the model's constraints do not allow: the motion would keep what is wrong."""
-    declared = type(vehicle).declaration
-    if all(v.order for v in declared.variables.values()) and not hasattr(vehicle, "constraints"):
-        return
-    import sympy as sp
-
-    from ..core.nonlinear import constraints
-    from ..core.trace import trace
-
-    traced = trace(type(vehicle), direction=None)
-    symbols = (*traced.states, *traced.u, *traced.parameters.values())
-    numbers = dict(zip(symbols, (*start, *u, *vehicle.arguments()), strict=True))
-    for condition in constraints(traced):
-        terms = [float(term.xreplace(numbers)) for term in sp.Add.make_args(sp.expand(condition))]
-        if abs(sum(terms)) > EXACT * sum(map(abs, terms)):
+    for condition, left, size in made.broken(start, u, arguments):
+        if np.any(np.abs(left) > EXACT * size):
             raise UcritError(
                 f"{type(vehicle).model_id()}: initial values must keep the constraint {condition} = 0, "
-                f"got {sum(terms):g}"
+                f"got {np.ravel(left)[np.argmax(np.abs(np.ravel(left)))]:g}"
             )

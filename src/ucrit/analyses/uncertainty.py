@@ -14,7 +14,7 @@ from ..core.errors import UcritError
 from ..core.model import Model
 from ..core.units import to_si
 from .convert import Series, Table, Tabular, unit_of
-from .crossings import Crossings, crossings
+from .critical_many import Crossings, crossings
 from .influence import Influence, influence
 from .sampling import check_count, drawn, toleranced, unit_points
 from .wording import speed_text

@@ -18,10 +18,17 @@ COMMANDS = {
     "list": "listing",
     "show": "show",
     "new": "new",
+    "simulate": "simulate",
     "sweep": "sweep",
+    "cycles": "cycles",
+    "handling": "handling",
+    "boundary": "boundary",
+    "margins": "margins",
     "uncertainty": "uncertainty",
     "certify": "certify",
     "routh": "routh",
+    "bonds": "bonds",
+    "tire": "tire",
     "check": "check",
     "completion": "completion",
 }
@@ -107,7 +114,7 @@ def cli(ctx: click.Context) -> None:
     \b
     Exit status:
       0  done, whatever the verdict      2  wrong input: one sentence on stderr
-      1  a check failed (ucrit check)    3  not stable (--fail-if-unstable)
+      1  a check failed (ucrit check)    3  not stable (analyze --fail-if-unstable)
     """
     if ctx.invoked_subcommand is None:
         click.echo(ctx.get_help())

@@ -24,6 +24,9 @@ class Name(click.ParamType):  # type: ignore[type-arg]
         names: list[str] = []
         names += catalogue.vehicle_names() if "vehicle" in self.kinds else ()
         names += catalogue.model_names() if "model" in self.kinds else ()
+        names += catalogue.controller_names() if "controller" in self.kinds else ()
+
+        names += catalogue.tire_names() if "tire" in self.kinds else ()
         found = [CompletionItem(name) for name in names if name.startswith(incomplete)]
         return [*found, *(CompletionItem(path) for path in _files(incomplete, self.suffix))]
 
@@ -61,7 +64,7 @@ def complete_parameters(ctx: click.Context, param: click.Parameter, incomplete: 
     ]
 
 
-def assignments(texts: Iterable[str], example: str) -> dict[str, Any]:
+def assignments(texts: Iterable[str], example: str, thing: str = "parameter") -> dict[str, Any]:
     """Read ``name=value`` texts; raise `UcritError` for one that is not or that comes twice."""
     from ..core.errors import UcritError
 
@@ -69,9 +72,10 @@ def assignments(texts: Iterable[str], example: str) -> dict[str, Any]:
     for text in texts:
         name, sign, value = (part.strip() for part in text.partition("="))
         if not (sign and name and value):
-            raise UcritError(f"a parameter is given as NAME=VALUE, such as {example}, got {text!r}")
+            article = "an" if thing[0] in "aeiou" else "a"
+            raise UcritError(f"{article} {thing} is given as NAME=VALUE, such as {example}, got {text!r}")
         if name in read:
-            raise UcritError(f"parameter {name} is given twice, as {read[name]!r} and as {value!r}")
+            raise UcritError(f"{thing} {name} is given twice, as {read[name]!r} and as {value!r}")
         read[name] = value
     return read
 

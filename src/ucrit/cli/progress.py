@@ -1,7 +1,8 @@
-"""A bar on stderr for what takes longer than a second."""
+"""A bar on stderr for work that takes longer than a second, on a terminal only."""
 
 from __future__ import annotations
 
+import sys
 import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -9,19 +10,19 @@ from typing import Any
 
 
 @contextmanager
-def progress_bar(what: str) -> Iterator[Callable[[int, int], None]]:
-    """Yield a function that shows a bar on stderr once the work has taken a second, if that is a terminal."""
+def progress(name: str) -> Iterator[Callable[[float, float], None]]:
+    """Yield a function that is told how much is done of how much, and shows a bar once a second has passed."""
     start = time.monotonic()
     bars: list[Any] = []
 
-    def advance(done: int, total: int) -> None:
-        if not bars and time.monotonic() - start > 1 and done < total:
+    def advance(done: float, total: float) -> None:
+        if not bars and time.monotonic() - start > 1 and done < total and sys.stderr.isatty():
             from rich.progress import Progress
 
             from .terminal import terminal
 
             bar = Progress(console=terminal(stderr=True), transient=True)
-            bars.append((bar, bar.add_task(what, total=total)))
+            bars.append((bar, bar.add_task(name, total=total)))
             bar.start()
         for bar, task in bars:
             bar.update(task, completed=done, total=total)

@@ -53,6 +53,11 @@ class Compiled:
             self.model, f"slopes{self.direction:+d}", lambda: derive_facts("slope", self.model, self.direction)
         )
 
+    @cached_property
+    def size_facts(self) -> Any:
+        """Sources of functions that bound the coefficients' sizes, and units of rounding; see `ucrit.core.bounds`."""
+        return cached(self.model, f"sizes{self.direction:+d}", lambda: derive_facts("size", self.model, self.direction))
+
     @property
     def order(self) -> int:
         """Number of states, equal to the degree of the characteristic polynomial."""

@@ -10,7 +10,7 @@ import sympy as sp
 from .codegen import generate
 from .linear import LinearSystem, linear_system
 from .model import Model
-from .nonlinear import solve_for_highest
+from .nonlinear import constraints, solve_for_highest
 from .trace import trace
 
 _symbolic: Any = cache(linear_system)
@@ -42,12 +42,26 @@ def linear_facts(model: type[Model], direction: int) -> dict[str, Any]:
     }
 
 
+def size_facts(model: type[Model], direction: int) -> dict[str, Any]:
+    """Derive bounds of the characteristic coefficients: the sums of their terms' sizes, and how often those round."""
+    polynomial = symbolic(model, direction).polynomial
+    parameters = list(symbolic(model, direction).traced.parameters.values())
+    names = list(polynomial.functions)
+    positive = [polynomial.ring.from_dict({m: abs(c) for m, c in a.terms()}) for a in polynomial.coefficients]
+    degrees = [max((sum(m) for m in a.itermonoms()), default=0) for a in polynomial.coefficients]
+    return {
+        "functions": generate("functions", [parameters], [polynomial.functions[name] for name in names]),
+        "magnitudes": generate("magnitudes", [parameters, names], [a.as_expr() for a in positive]),
+        "units": [len(a) + 6 * degree + 8 for a, degree in zip(polynomial.coefficients, degrees, strict=True)],
+    }
+
+
 def slope_facts(model: type[Model], direction: int) -> dict[str, Any]:
     """Derive how the explicit form changes with every parameter."""
     system = symbolic(model, direction)
     parameters = list(system.traced.parameters.values())
     slopes = [entry.diff(p) for p in parameters for block in (system.explicit.L, system.explicit.R) for entry in block]
-    static = system.polynomial.coefficients[system.polynomial.zeros].as_expr()
+    static = system.polynomial.expressions[system.polynomial.zeros]
     return {
         "slopes": generate("slopes", [parameters], slopes),
         "static": generate("static", [parameters], [static.diff(p) for p in parameters]),
@@ -59,6 +73,8 @@ def motion_facts(model: type[Model]) -> dict[str, Any]:
     traced = trace(model, direction=None)
     solved = solve_for_highest(traced)
     parameters = list(traced.parameters.values())
+    conditions = constraints(traced)
+    terms = [sp.Add.make_args(sp.expand(condition)) for condition in conditions]
     rates: list[tuple[str, int]] = []
     for i, order in enumerate(traced.orders):
         rates += [("w", len(rates) + k + 1) for k in range(order - 1)]
@@ -68,10 +84,20 @@ def motion_facts(model: type[Model]) -> dict[str, Any]:
         "size": len(traced.q),
         "states": [symbol.name for symbol in traced.states],
         "rates": rates,
+        "conditions": [str(condition) for condition in conditions],
+        "lengths": [len(summands) for summands in terms],
+        "terms": generate("terms", [traced.states, traced.u, parameters], [t for summands in terms for t in summands]),
         "motion": generate("motion", [traced.states, traced.u, parameters], [*solved.M, *solved.f]),
         "outputs": generate("outputs", [traced.states, traced.highest, traced.u, parameters], traced.outputs),
         "basic": generate("basic", [parameters], [traced.basic.get(s, 0) for s in (*traced.states, *traced.u)]),
     }
+
+
+def motion_event_facts(model: type[Model]) -> dict[str, Any]:
+    """Derive a model's events."""
+    from .event_facts import event_facts
+
+    return event_facts(model)
 
 
 def motion_slope_facts(model: type[Model]) -> dict[str, Any]:
@@ -81,7 +107,10 @@ def motion_slope_facts(model: type[Model]) -> dict[str, Any]:
     parameters = list(traced.parameters.values())
     residuals = solved.M * z - solved.f
     groups = traced.states, traced.highest, traced.u, parameters
-    by = {"residual": (*traced.states, *traced.u, *parameters), "output": (*groups[0], *groups[1], *groups[2])}
+    by = {
+        "residual": (*traced.states, *traced.u, *parameters),
+        "output": (*traced.states, *traced.highest, *traced.u, *parameters),
+    }
     return {
         name: _sparse(name, groups, expressions, variables)
         for (name, variables), expressions in zip(by.items(), (residuals, traced.outputs), strict=True)

@@ -68,3 +68,16 @@ def sign(a: Any) -> Any:
     if hasattr(a, "free_symbols"):
         return where(a > 0, 1, where(a < 0, -1, 0))
     return np.sign(a)
+
+
+def grouped(a: Any) -> Any:
+    """Return a pure number unchanged; as a formula of parameters, it is then carried as one thing.
+
+    >>> grouped(0.5)
+    0.5
+    """
+    if getattr(a, "free_symbols", None):
+        from .grouped import Group
+
+        return Group(a)
+    return a

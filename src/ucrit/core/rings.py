@@ -14,6 +14,10 @@ from sympy.polys.constructor import construct_domain
 from sympy.polys.rings import PolyElement, PolyRing
 
 from .declare import Parameter
+from .grouped import Group
+
+MAX_TRIGSIMP = 400
+"""Operations in expressions with sines and cosines above which those are not simplified: it would take minutes."""
 
 Swap = dict[Any, Any]
 Row = list[list[Any]]  # row[j][k]: coefficient of the k-th derivative of variable j
@@ -28,14 +32,14 @@ def function_symbols(expressions: Iterable[Any], parameters: Mapping[Any, Parame
     found: set[Any] = set()
     for expression in expressions:
         found |= {f for f in sp.sympify(expression).atoms(sp.Function) if f.free_symbols}
-    outer = [f for f in found if not any(f in g.atoms(sp.Function) and f != g for g in found)]
+    outer = [f for f in found if isinstance(f, Group) or not any(f in g.atoms(sp.Function) and f != g for g in found)]
     swap = {f: sp.Symbol(str(f), **_assumption(f, parameters)) for f in sorted(outer, key=str)}
     return swap, {symbol: f for f, symbol in swap.items()}
 
 
 def _assumption(function: Any, parameters: Mapping[Any, Parameter]) -> dict[str, bool]:
     """Assumptions for a sine, cosine, tangent or exponential of one parameter, from the parameter's bounds."""
-    if isinstance(function, sp.exp):
+    if isinstance(function, sp.exp) or function.is_positive:
         return {"positive": True}
     parameter = parameters.get(function.args[0])
     if parameter is None:
@@ -50,7 +54,10 @@ def _assumption(function: Any, parameters: Mapping[Any, Parameter]) -> dict[str,
 
 def polynomial_field(expressions: Sequence[Any], bounds: Mapping[Any, Any]) -> tuple[Any, list[Any], dict[Any, Any]]:
     """Return a field of rational functions in the parameters, the expressions in it, and what its symbols stand for."""
-    simple = [sp.trigsimp(e) if e.has(sp.sin, sp.cos, sp.tan) else e for e in map(sp.sympify, expressions)]
+    simple = [sp.sympify(e) for e in expressions]
+    waves = [e.has(sp.sin, sp.cos, sp.tan) for e in simple]
+    if sum(e.count_ops() for e, wave in zip(simple, waves, strict=True) if wave) <= MAX_TRIGSIMP:
+        simple = [sp.trigsimp(e) if wave else e for e, wave in zip(simple, waves, strict=True)]
     swap, back = function_symbols(simple, bounds)
     domain, elements = construct_domain([e.xreplace(swap) for e in simple], field=True)
     return domain, elements, back

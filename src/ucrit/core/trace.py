@@ -97,7 +97,7 @@ def trace(model: type[Model], direction: int | None = 1, method: str = "") -> Tr
     instance = symbolic_instance(model, symbols)
     q = [tuple(sp.Symbol(v.label(k), real=True) for k in range(v.order + 1)) for v in declared.variables.values()]
     u = tuple(sp.Symbol(name, real=True) for name in declared.inputs)
-    groups = _groups(model, q, u)
+    groups = groups_of(model, q, u)
     residuals, multipliers = _residuals(model, instance, groups, q, method)
     q = [*q, *((m,) for m in multipliers)]
     if len(residuals) != len(q):
@@ -120,7 +120,20 @@ def trace(model: type[Model], direction: int | None = 1, method: str = "") -> Tr
     return traced
 
 
-def _groups(model: type[Model], q: list[tuple[sp.Symbol, ...]], u: tuple[sp.Symbol, ...]) -> dict[str, Names]:
+def stated(traced: Traced) -> tuple[Expr, ...]:
+    """Return a model's residuals as they are written: with the forces of its parts as functions, not spelt out."""
+    model = traced.model
+    laws = {name: slot.law.unwritten(name) for name, slot in model.declaration.slots.items()}
+    if not laws:
+        return traced.residuals
+    instance = symbolic_instance(model.fitted(**laws), traced.parameters)
+    q = list(traced.q[: len(traced.q) - traced.multipliers])
+    residuals, _ = _residuals(type(instance), instance, groups_of(model, q, traced.u), q, "")
+    return tuple(_rational(r) for r in residuals)
+
+
+def groups_of(model: type[Model], q: list[tuple[sp.Symbol, ...]], u: tuple[sp.Symbol, ...]) -> dict[str, Names]:
+    """Return the symbols of a model's variables, rates and inputs, as its methods take them."""
     names = list(model.declaration.variables)
     by_order = [{name: chain[k] for name, chain in zip(names, q, strict=True) if k < len(chain)} for k in range(3)]
     groups = {group: Names(group, values) for group, values in zip(("x", "dx", "ddx"), by_order, strict=True)}

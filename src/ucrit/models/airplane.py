@@ -6,7 +6,8 @@ from its leading edge in chords c. Thrust acts along x through the centre of mas
 left the wing some time earlier. The elevator turns the tail's direction of zero lift.
 """
 
-from ..core import Model, cos, input, output, param, sin, speed, sqrt, state
+from ..core import Drawing, Model, cos, input, output, param, sin, speed, sqrt, state
+from ..parts.shapes import airplane_side
 from ..parts.wings import angle_of_attack
 
 
@@ -105,3 +106,7 @@ class Airplane(Model):
         alpha = self.angle(x)
         C_L, _, C_M = self.coefficients(alpha, u.delta_e)
         return {"alpha": alpha, "C_L": C_L, "C_M": C_M}
+
+    def drawing(self, x):
+        travel = x.u * cos(x.theta) + x.w * sin(x.theta), x.u * sin(x.theta) - x.w * cos(x.theta), 0
+        return Drawing("side", airplane_side(1.8 * self.l, angle=x.theta), travel=travel)

@@ -5,7 +5,8 @@ Each derivative is that of a force or moment on the airplane with respect to the
 and height it was measured or computed for.
 """
 
-from ..core import Model, cos, input, param, state, tan
+from ..core import Drawing, Model, cos, input, param, state, tan
+from ..parts.shapes import airplane_rear, radius_of_gyration
 
 
 class AirplaneLateral(Model):
@@ -52,3 +53,6 @@ class AirplaneLateral(Model):
             self.I_z * dx.r - self.I_xz * dx.p - N,
             dx.phi - (x.p + tan(self.theta_0) * x.r),
         )
+
+    def drawing(self, x):
+        return Drawing("rear", airplane_rear(8 * radius_of_gyration(self.I_x, self.m), x.phi))

@@ -5,7 +5,8 @@ Each derivative is that of a force or moment on the airplane with respect to the
 and height it was measured or computed for; thrust is part of X.
 """
 
-from ..core import Model, cos, input, param, sin, state
+from ..core import Drawing, Model, cos, input, param, sin, state
+from ..parts.shapes import airplane_side, radius_of_gyration
 
 
 class AirplaneLongitudinal(Model):
@@ -50,3 +51,8 @@ class AirplaneLongitudinal(Model):
             self.I_y * dx.q - M,
             dx.theta - x.q,
         )
+
+    def drawing(self, x):
+        pitch, forward = self.theta_0 + x.theta, self.U + x.u
+        travel = forward * cos(pitch) + x.w * sin(pitch), forward * sin(pitch) - x.w * cos(pitch), 0
+        return Drawing("side", airplane_side(5 * radius_of_gyration(self.I_y, self.m), angle=pitch), travel=travel)

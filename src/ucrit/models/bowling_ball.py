@@ -4,7 +4,8 @@ The stick is rigid, without mass, and held upright at its foot by a spring that 
 of a stick that is clamped there.
 """
 
-from ..core import Model, coordinate, cos, param, sin
+from ..core import Drawing, Model, coordinate, cos, event, param, sin
+from ..parts.shapes import pendulum_upright
 
 
 class BowlingBall(Model):
@@ -34,3 +35,9 @@ class BowlingBall(Model):
     def equations_newton(self, x, dx, ddx):
         weight = self.m * self.g * self.l * sin(x.theta)
         return self.inertia_about_foot() * ddx.theta - (weight - self.k * x.theta - self.c * dx.theta)
+
+    def events(self, x):
+        return {"falls over": event(cos(x.theta), ends=True)}
+
+    def drawing(self, x):
+        return Drawing("side", pendulum_upright(self.l, self.R, x.theta))

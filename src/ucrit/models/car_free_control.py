@@ -6,7 +6,8 @@ axis, which meets the road a length e ahead of the point where the front side fo
 I_s to I_z.
 """
 
-from ..core import Model, coordinate, cos, input, output, param, sin, speed, state
+from ..core import Drawing, Model, coordinate, cos, input, output, param, sin, speed, state
+from ..parts.shapes import car
 from ..parts.tires import linear_side_force, slip_angle
 
 
@@ -66,3 +67,6 @@ class CarFreeControl(Model):
 
     def outputs(self, x, dx):
         return {"a_y": dx.V + x.r * self.U}
+
+    def drawing(self, x):
+        return Drawing("top", car(self.a, self.b, x.delta), turned=True, travel=(self.U, x.V, x.r))

@@ -5,7 +5,8 @@ The centre of mass runs along X with constant speed U; steer angles are relative
 right.
 """
 
-from ..core import Model, coordinate, cos, input, param, sin, speed
+from ..core import Drawing, Model, coordinate, cos, input, param, sin, speed
+from ..parts.shapes import car
 from ..parts.tires import linear_side_force, slip_angle
 
 
@@ -52,3 +53,7 @@ class CarInertial(Model):
             self.m * ddx.y - (Y_f * cos(x.psi + u.delta_f) + Y_r * cos(x.psi + u.delta_r)),
             self.I_z * ddx.psi - (self.a * Y_f * cos(u.delta_f) - self.b * Y_r * cos(u.delta_r)),
         )
+
+    def drawing(self, x, u):
+        shape = car(self.a, self.b, u.delta_f, u.delta_r, (0, x.y), x.psi)
+        return Drawing("top", shape, turned=True, travel=(self.U, 0, 0))

@@ -4,7 +4,8 @@ theta is the trailer's yaw angle to the car, positive when its rear swings to th
 forward speed.
 """
 
-from ..core import Model, coordinate, cos, input, output, param, sin, speed, state
+from ..core import Drawing, Model, coordinate, cos, input, output, param, sin, speed, state
+from ..parts.shapes import car, trailer
 from ..parts.tires import linear_side_force, slip_angle
 
 
@@ -93,3 +94,8 @@ class CarTrailer(Model):
 
     def outputs(self, x, dx):
         return {"a_y": dx.V + x.r * self.U, "r_t": x.r + dx.theta}
+
+    def drawing(self, x, u):
+        towed = trailer(self.a_t, self.b_t, (-self.h, 0), x.theta)
+        shape = (*towed, *car(self.a, self.b, u.delta_f))
+        return Drawing("top", shape, turned=True, travel=(self.U, x.V, x.r))

@@ -4,7 +4,8 @@ The fixed rear axle lies b behind the centre of mass. The front casters follow f
 forward velocity: this is the exact motion of a Chaplygin sleigh. U is the forward speed of the basic motion.
 """
 
-from ..core import Model, algebraic, param, speed, state
+from ..core import Drawing, Model, algebraic, param, speed, state
+from ..parts.shapes import shopping_cart
 
 
 class Cart(Model):
@@ -36,3 +37,9 @@ class Cart(Model):
 
     def conserved(self, x, dx):
         return (self.m * (x.v_x**2 + x.v_y**2) / 2 + self.I_z * x.r**2 / 2,)
+
+    def drawing(self, x):
+        return Drawing("top", shopping_cart(self.b), travel=(x.v_x, x.v_y, x.r))
+
+    def events(self, x):
+        return {"turns round": x.v_x}

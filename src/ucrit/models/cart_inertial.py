@@ -4,7 +4,8 @@ The centre of mass moves along X with speed U; the fixed rear axle lies b behind
 freely.
 """
 
-from ..core import Model, coordinate, cos, param, sin, speed
+from ..core import Drawing, Model, coordinate, cos, param, sin, speed
+from ..parts.shapes import shopping_cart
 
 
 class CartInertial(Model):
@@ -24,3 +25,6 @@ class CartInertial(Model):
     def constraints(self, x, dx):
         axle_sideways = dx.y * cos(x.phi) - self.U * sin(x.phi) - self.b * dx.phi
         return (axle_sideways,)
+
+    def drawing(self, x):
+        return Drawing("top", shopping_cart(self.b, (0, x.y), x.phi), travel=(self.U, 0, 0))

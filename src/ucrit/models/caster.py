@@ -4,7 +4,8 @@ theta is positive when the wheel swings to the left; the wheel touches the road 
 trail. The motion is that of a trailer on a rigid hitch.
 """
 
-from ..core import coordinate, param, speed
+from ..core import Drawing, coordinate, param, speed
+from ..parts.shapes import caster
 from .trailer_rigid_hitch import TrailerRigidHitch
 
 
@@ -19,3 +20,6 @@ class Caster(TrailerRigidHitch):
     U: float = speed("speed of the pivot", reverse=True)
 
     theta = coordinate("rad", "swivel angle", motion="swivel")
+
+    def drawing(self, x):
+        return Drawing("top", caster(self.a + self.b, angle=-x.theta), travel=(self.U, 0, 0))

@@ -7,7 +7,8 @@ swings to the left. a and b are distances at right angles to the axis; the trail
 
 import math
 
-from ..core import asin, atan2, cos, param, sin
+from ..core import Drawing, asin, atan2, cos, param, sin
+from ..parts.shapes import caster
 from ..parts.tires import linear_side_force, slip_angle
 from .caster import Caster
 
@@ -56,3 +57,7 @@ class CasterRaked(Caster):
     def equations_newton(self, x, dx, ddx):
         about_axis = (self.I_c + self.m * self.a**2) * ddx.theta
         return about_axis - (self.a + self.b) * cos(self.camber(x)) * self.side_force(x, dx)
+
+    def drawing(self, x):
+        trail = (self.a + self.b) / math.cos(self.beta)
+        return Drawing("top", caster(trail, angle=-self.ground_steer_angle(x)), travel=(self.U, 0, 0))

@@ -6,9 +6,10 @@ p is the momentum of Lagrange's equation for the lean angle, dT/d(theta'): with 
 equations hold the steer angles, not their rates, and a steer angle may jump.
 """
 
-from ..core import Model, cos, input, output, param, sin, speed, state
+from ..core import Drawing, Model, cos, event, input, output, param, sin, speed, state
 from ..parts.rigid_body import inertia_tensor, possible_inertia
 from ..parts.rolling import rolling_motion
+from ..parts.shapes import leaning
 
 
 class Lean(Model):
@@ -57,3 +58,9 @@ class Lean(Model):
     def outputs(self, u):
         V, r = self.rolling(u)
         return {"V": V, "r": r}
+
+    def drawing(self, x):
+        return Drawing("rear", leaning(self.h, x.theta))
+
+    def events(self, x):
+        return {"falls over": event(cos(x.theta), ends=True)}

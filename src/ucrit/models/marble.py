@@ -4,7 +4,8 @@ The track lies in a vertical plane and the marble rolls along it without slip; z
 its centre.
 """
 
-from ..core import Model, coordinate, param, sqrt
+from ..core import Drawing, Model, coordinate, param, sqrt
+from ..parts.shapes import ball_on_a_path
 
 
 class Marble(Model):
@@ -30,3 +31,6 @@ class Marble(Model):
     def forces(self, x, dx):
         velocity = self.velocity(x, dx)
         return ((-self.b * velocity, velocity),)
+
+    def drawing(self, x):
+        return Drawing("side", ball_on_a_path(self.kappa, x.x))

@@ -5,7 +5,8 @@ The airplane keeps its angle of attack, so that lift and drag grow with V^2, and
 flies level with speed U: lift balances weight, thrust balances drag.
 """
 
-from ..core import Model, cos, param, sin, speed, state
+from ..core import Drawing, Model, cos, param, sin, speed, state
+from ..parts.shapes import airplane_side
 
 
 class Phugoid(Model):
@@ -30,3 +31,8 @@ class Phugoid(Model):
             dx.V - (thrust - drag - self.g * sin(x.gamma)),
             x.V * dx.gamma - (lift - self.g * cos(x.gamma)),
         )
+
+    def drawing(self, x):
+        length = self.U**2 / self.g / 15
+        travel = x.V * cos(x.gamma), x.V * sin(x.gamma), 0
+        return Drawing("side", airplane_side(length, angle=x.gamma), travel=travel)

@@ -4,8 +4,10 @@ The car body moves straight with speed V; wheelset 1 lies b ahead of the frame's
 behind. f_x acts along, f_y across the rolling direction, for one wheel.
 """
 
-from ..core import Model, coordinate, cos, param, sin, speed
+from ..core import Drawing, Model, coordinate, cos, param, sin, speed
+from ..core.drawing import box
 from ..parts.creep import contact_velocities, creep_forces
+from ..parts.shapes import rails, wheelset
 
 
 class RailTruck(Model):
@@ -86,3 +88,9 @@ class RailTruck(Model):
     def wheelset_forces(self, y, psi, dy, dpsi):
         velocities = contact_velocities(self.V, y, psi, dy, dpsi, self.d, self.r_0, self.lambda_)
         return creep_forces(self.V, velocities, self.f_x, self.f_y)
+
+    def drawing(self, x):
+        leading = wheelset(self.d, self.r_0, (self.b, x.y_1), x.psi_1)
+        trailing = wheelset(self.d, self.r_0, (-self.b, x.y_2), x.psi_2)
+        frame = box(2.6 * self.b, 1.2 * self.d, (0, x.y_f), x.psi_f)
+        return Drawing("top", (*rails(self.d, 3 * self.b), frame, *leading, *trailing), travel=(self.V, 0, 0))

@@ -5,8 +5,10 @@ acts along, f_y across the rolling direction, for one wheel, which carries the l
 with gravity.
 """
 
-from ..core import Model, coordinate, cos, param, sin, speed
+from ..core import Drawing, Model, coordinate, cos, param, sin, speed
+from ..core.drawing import box, moved
 from ..parts.creep import contact_velocities, creep_forces
+from ..parts.shapes import rails, wheelset
 
 
 class RailTruckRigid(Model):
@@ -51,3 +53,9 @@ class RailTruckRigid(Model):
         y, dy = x.y + ahead * sin(x.psi), dx.y + ahead * dx.psi * cos(x.psi)
         velocities = contact_velocities(self.V, y, x.psi, dy, dx.psi, self.d, self.r_0, self.lambda_)
         return creep_forces(self.V, velocities, self.f_x, self.f_y)
+
+    def drawing(self, x):
+        at = (0, x.y)
+        ends = (wheelset(self.d, self.r_0, moved(at, x.psi, ahead), x.psi) for ahead in (self.b, -self.b))
+        frame = box(2.6 * self.b, 1.2 * self.d, at, x.psi)
+        return Drawing("top", (*rails(self.d, 3 * self.b), frame, *sum(ends, ())), travel=(self.V, 0, 0))

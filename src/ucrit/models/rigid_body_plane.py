@@ -3,6 +3,9 @@
 A plane holds heave, roll and pitch at zero, with a force and two moments that do no work.
 """
 
+from ..core import Drawing
+from ..core.drawing import box
+from ..parts.shapes import radius_of_gyration
 from .rigid_body_symmetric import RigidBodySymmetric
 
 
@@ -17,3 +20,7 @@ class RigidBodyPlane(RigidBodySymmetric):
 
     def possible(self):
         return {}  # of three moments of inertia only one matters
+
+    def drawing(self, x):
+        k = radius_of_gyration(self.I_zz, self.m)
+        return Drawing("top", (box(3.4 * k, 1.4 * k),), turned=True, travel=(x.U, x.V, x.r))

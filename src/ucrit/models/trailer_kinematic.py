@@ -3,7 +3,8 @@
 theta is positive when the trailer's rear swings to the left; the axle lies a + b behind the hitch.
 """
 
-from ..core import Model, param, sin, speed, state
+from ..core import Drawing, Model, param, sin, speed, state
+from ..parts.shapes import trailer
 
 
 class TrailerKinematic(Model):
@@ -17,3 +18,6 @@ class TrailerKinematic(Model):
 
     def equations(self, x, dx):
         return (self.a + self.b) * dx.theta + self.U * sin(x.theta)
+
+    def drawing(self, x):
+        return Drawing("top", trailer(self.a, self.b, angle=-x.theta), travel=(self.U, 0, 0))

@@ -1,6 +1,7 @@
 """Axes: x along the track, y to the left, psi positive counter-clockwise seen from above. SI units and radians."""
 
-from ..core import Model, param, sin, state
+from ..core import Drawing, Model, param, sin, state
+from ..parts.shapes import rails, wheelset
 
 
 class WheelsetKinematic(Model):
@@ -22,3 +23,8 @@ class WheelsetKinematic(Model):
             dx.y - centre * sin(x.psi),
             dx.psi - (right - left) / self.l,
         )
+
+    def drawing(self, x):
+        half = self.l / 2
+        shape = (*rails(half, 3 * half), *wheelset(half, self.r_0, (0, x.y), x.psi))
+        return Drawing("top", shape, travel=(self.r_0 * self.Omega, 0, 0))

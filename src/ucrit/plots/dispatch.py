@@ -2,25 +2,74 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from ..core.errors import UcritError
+from .bond_graph import plot_bond_graph
+from .boundary import plot_boundary
+from .cycles import plot_cycles
+from .family import plot_family
+from .handling import plot_handling
 from .mode_shapes import plot_mode_shapes
 from .moment_line import plot_moment_line
+from .motion import plot_simulation
 from .overview import plot_overview
 from .remedies import plot_remedies
 from .stability_map import plot_map
+from .tire import plot_tire
 from .uncertainty import plot_uncertainty
 
 
+def _analysis(result: Any, *, figure: Any) -> Any:
+    from ..analyses.locus import locus
+
+    if result.critical is None:
+        return plot_mode_shapes(result.modes, result.vehicle, figure=figure)
+    return plot_overview(locus(result.vehicle), critical=result.critical, figure=figure)
+
+
+def _locus(path: Any, *, figure: Any) -> Any:
+    from ..analyses.critical import critical
+
+    return plot_overview(path, critical=critical(path.vehicle, path.parameter), figure=figure)
+
+
+def _modes(found: Any, *, figure: Any) -> Any:
+    return plot_mode_shapes(found.list(), found.vehicle, figure=figure)
+
+
+def _bonds(found: Any, *, figure: Any) -> Any:
+    return plot_bond_graph(found.causality, figure=figure)
+
+
+DRAWN: dict[str, tuple[str, Callable[..., Any]]] = {
+    "Bonds": ("bonds", _bonds),
+    "Handling": ("handling_diagram", plot_handling),
+    "SteadyFamily": ("steady_family", plot_family),
+    "LimitCycles": ("limit_cycles", plot_cycles),
+    "Analysis": ("analyze", _analysis),
+    "Locus": ("locus", _locus),
+    "Modes": ("modes", _modes),
+    "MomentLine": ("moment_line", plot_moment_line),
+    "Remedy": ("remedies", plot_remedies),
+    "Simulation": ("simulate", plot_simulation),
+    "StabilityBoundary": ("boundary", plot_boundary),
+    "StabilityMap": ("stability_map", plot_map),
+    "TireCurves": ("tire_curves", plot_tire),
+    "Uncertainty": ("uncertainty", plot_uncertainty),
+}
+"""By the name of a result's class: what returns such results, and what draws them."""
+
+
 def plot(result: Any, *, figure: Any = None) -> Any:
-    """Draw a result: an analysis, a root locus, modes, remedies, a stability map, uncertainty, lines of moment.
+    """Draw a result.
 
     Parameters
     ----------
     result
-        What `ucrit.analyze`, `locus`, `modes`, `remedies`, `stability_map`, `uncertainty` or `moment_line` returned.
-        Of an analysis the root locus and the damping against speed are drawn, of a vehicle without speed its modes.
+        What one of the functions named in ``plots.dispatch.DRAWN`` returned. Of an analysis the root locus and the
+        damping against speed are drawn, of a vehicle without speed its modes.
     figure
         Figure to draw into; a new one by default.
 
@@ -39,43 +88,11 @@ def plot(result: Any, *, figure: Any = None) -> Any:
     >>> len(plot(analyze("caravan")).subfigs)
     2
     """
-    from ..analyses.analyze import Analysis
-    from ..analyses.locus import Locus
-    from ..analyses.modes import Modes
-    from ..analyses.pitching import MomentLine
-    from ..analyses.remedies import Remedy
-    from ..analyses.stability_map import StabilityMap
-    from ..analyses.uncertainty import Uncertainty
-
-    if isinstance(result, Analysis):
-        return _analysis(result, figure)
-    if isinstance(result, Locus):
-        return plot_overview(result, critical=_critical(result), figure=figure)
-    if isinstance(result, Modes):
-        return plot_mode_shapes(result.list(), result.vehicle, figure=figure)
-    if isinstance(result, StabilityMap):
-        return plot_map(result, figure=figure)
-    if isinstance(result, MomentLine):
-        return plot_moment_line(result, figure=figure)
-    if isinstance(result, Uncertainty):
-        return plot_uncertainty(result, figure=figure)
-    if isinstance(result, tuple) and result and all(isinstance(item, Remedy) for item in result):
-        return plot_remedies(result, figure=figure)
-    raise UcritError(
-        f"there is no drawing for {type(result).__name__}; "
-        "drawn are the results of analyze, locus, modes, remedies, stability_map, uncertainty and moment_line"
-    )
-
-
-def _analysis(result: Any, figure: Any) -> Any:
-    from ..analyses.locus import locus
-
-    if result.critical is None:
-        return plot_mode_shapes(result.modes, result.vehicle, figure=figure)
-    return plot_overview(locus(result.vehicle), critical=result.critical, figure=figure)
-
-
-def _critical(path: Any) -> Any:
-    from ..analyses.critical import critical
-
-    return critical(path.vehicle, path.parameter)
+    kinds = {type(item) for item in result} if isinstance(result, tuple) else {type(result)}
+    kind = kinds.pop() if len(kinds) == 1 else type(result)
+    if kind.__name__ not in DRAWN or not kind.__module__.startswith("ucrit."):
+        *names, last = (name for name, _ in DRAWN.values())
+        raise UcritError(
+            f"there is no drawing for {type(result).__name__}; drawn are the results of {', '.join(names)} and {last}"
+        )
+    return DRAWN[kind.__name__][1](result, figure=figure)

@@ -34,6 +34,7 @@ NOT_STABLE = 3
     shell_complete=complete_parameters,
     help="The two parameters of the report's stability map.",
 )
+@click.option("--audit", is_flag=True, help="Check the verdict by simulating the non-linear equations.")
 @click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
 @click.option("--fail-if-unstable", is_flag=True, help="Leave with status 3 if not stable up to the speed.")
 def command(
@@ -42,6 +43,7 @@ def command(
     upto: str | None,
     report: str | None,
     map_parameters: tuple[str, str] | None,
+    audit: bool,
     as_json: bool,
     fail_if_unstable: bool,
 ) -> int:
@@ -54,6 +56,7 @@ def command(
       ucrit analyze caravan
       ucrit analyze caravan --upto "130 km/h"
       ucrit analyze caravan --set a=1.9 --set "m=2 t" --set "C=1.5 kN/deg"
+      ucrit analyze caravan --audit
       ucrit analyze mine.toml --report mine.html --map a m
       ucrit analyze mine.toml --upto 30 --json | jq .verdict.sentence
       ucrit analyze mine.toml --fail-if-unstable || echo "do not drive"
@@ -69,7 +72,7 @@ def command(
 
     if map_parameters and report is None:
         raise click.UsageError("--map chooses what the report draws: give --report FILE.html too")
-    found = analyze(load_vehicle(vehicle, assignments(changes, 'a=1.9 or "m=2 t"'), upto))
+    found = analyze(load_vehicle(vehicle, assignments(changes, 'a=1.9 or "m=2 t"'), upto), audit=audit)
     if report is not None:
         _write(found, report, map_parameters)
     if as_json:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
-from ..progress import progress_bar
+from ..progress import progress
 
 NOT_STABLE = 3
 UNDECIDED = 1
@@ -45,8 +45,8 @@ def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], box
     changed, region = assignments(changes, "a=1.9"), assignments(ranges, "m=1000:1300")
     refuse_both(region, changed)
     subject = load_vehicle(vehicle, changed)
-    with progress_bar("boxes") as progress:
-        found = certify(subject, region, boxes=boxes, progress=progress)
+    with progress("boxes") as advance:
+        found = certify(subject, region, boxes=boxes, progress=advance)
     from ..render_sure import show_certificate
     from ..terminal import terminal
 

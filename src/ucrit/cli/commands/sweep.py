@@ -2,19 +2,15 @@
 
 from __future__ import annotations
 
-import sys
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from ..output import to_stdout, writer
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
-from ..progress import progress_bar
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
+from ..progress import progress
 
 ZARR = ".zarr"
-FORMATS = {".csv": "to_csv", ".nc": "to_netcdf", ".json": "to_json", ".mat": "to_mat"}
 
 
 @click.command("sweep", short_help="Stability over ranges of parameters, as a table.")
@@ -62,12 +58,12 @@ def command(
         return
     if scheduler is not None:
         raise click.UsageError("--scheduler needs a store that workers can write to: give -o FILE.zarr too")
-    write = writer(output, (ZARR,))
+    write = to_stdout if output is None else writer(output, pictures=(), more={ZARR: to_stdout})
     subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
     read = assignments(ranges, '"U=20:130:12 km/h"')
     refuse_both(read, assignments(changes, "a=1.9"))
-    with progress_bar("sweep") as progress:
-        result = sweep(subject, progress=progress, **read)
+    with progress("sweep") as advance:
+        result = sweep(subject, progress=advance, **read)
     write(result)
 
 
@@ -80,8 +76,8 @@ def _stream(
     read = assignments(ranges, '"U=20:130:12 km/h"')
     refuse_both(read, assignments(changes, "a=1.9"))
     subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
-    with progress_bar("sweep") as progress:
-        stream(subject, output, kind="sweep", client=scheduler, progress=progress, **read)
+    with progress("sweep") as advance:
+        stream(subject, output, kind="sweep", client=scheduler, progress=advance, **read)
 
 
 def refuse_both(ranges: dict[str, Any], changes: dict[str, Any]) -> None:
@@ -91,34 +87,3 @@ def refuse_both(ranges: dict[str, Any], changes: dict[str, Any]) -> None:
     for name in ranges.keys() & changes.keys():
         given = f"as the range {ranges[name]!r} and as {changes[name]!r}"
         raise UcritError(f"parameter {name} is given twice, {given}")
-
-
-def writer(output: str | None, others: tuple[str, ...] = ()) -> Callable[[Any], None]:
-    """Return what writes a result; a file ending that is not known is refused before anything is computed."""
-    from ...core.errors import UcritError
-
-    if output is None:
-        return _to_stdout
-    ending = output[output.rfind(".") :] if "." in output else ""
-    if ending not in FORMATS:
-        raise UcritError(f"the output '{output}' must end in {', '.join((*FORMATS, *others))}")
-    if ending == ".nc":
-        return lambda result: _to_netcdf(result, output)
-    return lambda result: getattr(result, FORMATS[ending])(output)
-
-
-def _to_stdout(result: Any) -> None:
-    import csv
-
-    columns = list(result.table().columns())
-    writer = csv.writer(sys.stdout, lineterminator="\n")
-    writer.writerow([f"{name} [{unit}]" if unit else name for name, unit, _ in columns])
-    writer.writerows(zip(*(values.tolist() for _, _, values in columns), strict=True))
-
-
-def _to_netcdf(result: Any, path: str) -> None:
-    """Write a netCDF file, whole or not at all."""
-    from ...analyses.convert import write_whole
-
-    content: bytes = bytes(result.to_xarray().to_netcdf(engine="scipy"))
-    write_whole(path, content)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import click
 
-from ..output import table_or_picture
+from ..output import writer
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
-from ..progress import progress_bar
+from ..progress import progress
 
 
 @click.command("uncertainty", short_help="How sure the critical speed is, with the tolerances of the vehicle file.")
@@ -57,10 +57,10 @@ def command(
     """
     from ...analyses.uncertainty import uncertainty
 
-    write = table_or_picture(output)
+    write = None if output is None else writer(output)
     subject = load_vehicle(vehicle, assignments(changes, 'a=1.9 or "m=2 t"'))
-    with progress_bar("vehicles") as progress:
-        found = uncertainty(subject, samples=samples, seed=seed, upto=upto, indices=indices, progress=progress)
+    with progress("vehicles") as advance:
+        found = uncertainty(subject, samples=samples, seed=seed, upto=upto, indices=indices, progress=advance)
     if write is not None:
         write(found)
     from ..render_sure import show_uncertainty

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...core.functions import atan
+from ...core.functions import atan, sqrt
 
 
 def slip_angle(lateral: Any, longitudinal: Any) -> Any:
@@ -19,6 +19,43 @@ def slip_angle(lateral: Any, longitudinal: Any) -> Any:
     return atan(lateral / abs(longitudinal))
 
 
+def longitudinal_slip(r: Any, omega: Any, longitudinal: Any) -> Any:
+    """Return the longitudinal slip kappa of a wheel of dynamic rolling radius r [m] that turns at omega [rad/s].
+
+    ``(r omega - U)/U``: 0 where the wheel rolls freely, ``U = r omega``, and -1 where it is locked (Karnopp 2004,
+    eq. (4.5)).
+
+    >>> float(longitudinal_slip(0.3, 0.0, 20.0)), float(longitudinal_slip(0.3, 110.0, 30.0))
+    (-1.0, 0.1)
+    """
+    return (r * omega - longitudinal) / abs(longitudinal)
+
+
 def linear_side_force(C: Any, alpha: Any) -> Any:
     """Return the side force [N] for a cornering coefficient C [N/rad] at slip angle alpha [rad]."""
     return -C * alpha
+
+
+def is_zero(value: Any) -> bool:
+    """Return whether a value is zero itself, not a symbol or an array that may be."""
+    return bool(getattr(value, "is_zero", False)) or (isinstance(value, int | float) and value == 0)
+
+
+def length(a: Any, b: Any) -> Any:
+    """Return the length of a plane vector of pure numbers, without a corner where it vanishes.
+
+    As a formula it is then 1e-15 instead of 0, so that formulas can divide by it and be differentiated.
+
+    >>> float(length(-3.0, 4.0)), length(0, -2.0)
+    (5.0, 2.0)
+    """
+    if is_zero(a):
+        return abs(b)
+    if is_zero(b):
+        return abs(a)
+    square = a * a + b * b
+    if hasattr(square, "free_symbols"):
+        import sympy
+
+        square += sympy.Rational(1, 10**30)
+    return sqrt(square)
