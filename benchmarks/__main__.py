@@ -2,20 +2,38 @@
 
 Everything is measured side by side in one run, the candidates in turn (A B A B ...), so that a machine that
 slows down slows all of them; ratios of medians count. Kernels are timed in CPU time, processes by the clock.
+Name some of the parts to measure only those; ``--device`` adds the GPU.
 """
 
 from __future__ import annotations
 
 import sys
 
-from benchmarks import explorer, kernels, startup
+from benchmarks import bicycle, explorer, kernels, maps, startup
 from benchmarks.timing import Row
+
+PARTS = {
+    "bandwidth": kernels.bandwidth,
+    "speeds": kernels.speeds,
+    "plane": kernels.plane,
+    "maps": maps.large,
+    "generic": maps.generic,
+    "boundary": maps.curves,
+    "bicycle": bicycle.speeds,
+    "startup": startup.processes,
+    "explorer": explorer.latency,
+}
 
 
 def main() -> int:
     """Measure, print a table, and return 0 if every limit is kept."""
+    asked = [part for part in sys.argv[1:] if part != "--device"]
+    if unknown := set(asked) - PARTS.keys():
+        print(f"there is no part {', '.join(sorted(unknown))}; allowed: --device, {', '.join(PARTS)}", file=sys.stderr)
+        return 2
     rows: list[Row] = []
-    for measure in (kernels.bandwidth, kernels.speeds, kernels.plane, startup.processes, explorer.latency):
+    measures = [PARTS[part] for part in asked or PARTS]
+    for measure in (*measures, *([maps.device] if "--device" in sys.argv[1:] else [])):
         found = measure()
         rows += found
         for row in found:

@@ -10,16 +10,28 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.analyze import analyze as analyze
     from .analyses.approximation import approximation as approximation
     from .analyses.audit import audit as audit
+    from .analyses.basin import basin as basin
+    from .analyses.bonds import bonds as bonds
+    from .analyses.bonds import power_flow as power_flow
+    from .analyses.boundary import boundary as boundary
+    from .analyses.certify import certify as certify
     from .analyses.compare import compare as compare
     from .analyses.convert import to_control as to_control
     from .analyses.convert import to_scipy as to_scipy
     from .analyses.criteria import criteria as criteria
     from .analyses.critical import critical as critical
+    from .analyses.cycles import limit_cycles as cycles  # noqa: F401
+    from .analyses.cycles import limit_cycles as limit_cycles
+    from .analyses.delays import simulate_delayed as simulate_delayed
     from .analyses.forms import Descriptor as Descriptor
     from .analyses.forms import NthOrder as NthOrder
     from .analyses.forms import SecondOrder as SecondOrder
     from .analyses.forms import StateSpace as StateSpace
     from .analyses.forms import forms as forms
+    from .analyses.handling import handling_diagram as handling  # noqa: F401
+    from .analyses.handling import handling_diagram as handling_diagram
+    from .analyses.laws import describe_controller as describe_controller
+    from .analyses.lazy import lazy as lazy
     from .analyses.limits import limit as limit
     from .analyses.listing import listing as list  # noqa: F401
     from .analyses.listing import template as new  # noqa: F401
@@ -31,6 +43,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.manoeuvres import Sine as Sine
     from .analyses.manoeuvres import SineWithDwell as SineWithDwell
     from .analyses.manoeuvres import Step as Step
+    from .analyses.margins import margins as margins
     from .analyses.modes import modes as modes
     from .analyses.pitching import moment_line as moment_line
     from .analyses.pitching import static_margin as static_margin
@@ -38,6 +51,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.response import frequency_response as frequency_response
     from .analyses.response import impulse_response as impulse_response
     from .analyses.response import step_response as step_response
+    from .analyses.rollover import rollover as rollover
     from .analyses.routh import routh as routh
     from .analyses.sensitivity import sensitivity as sensitivity
     from .analyses.show import show as show
@@ -46,11 +60,14 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.static import static_stability as static_stability
     from .analyses.steady import axle_loads as axle_loads
     from .analyses.steady import steady_turn as steady_turn
+    from .analyses.steady_family import steady_family as steady_family
+    from .analyses.stream import stream as stream
     from .analyses.sweep import sweep as sweep
     from .analyses.tire_curves import cornering_coefficient as cornering_coefficient
     from .analyses.tire_curves import tire_curves as tire_curves
     from .analyses.transfer import transfer as transfer
     from .analyses.trim import trim as trim
+    from .analyses.uncertainty import uncertainty as uncertainty
     from .analyses.verdict import verdict as verdict
     from .catalogue import find_model as find_model
     from .catalogue import load as load
@@ -69,6 +86,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .core import slot as slot
     from .core import speed as speed
     from .core import state as state
+    from .numerics.matrices import stable_matrices as stable_matrices
     from .plots import animate as animate
     from .plots import plot as plot
     from .report import write_report as write_report
@@ -107,8 +125,12 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "approximation": "analyses.approximation",
     "audit": "analyses.audit",
     "axle_loads": "analyses.steady",
+    "certify": "analyses.certify",
+    "basin": "analyses.basin",
     "cornering_coefficient": "analyses.tire_curves",
+    "boundary": "analyses.boundary",
     "compare": "analyses.compare",
+    "cycles": ("analyses.cycles", "limit_cycles"),
     "frequency_response": "analyses.response",
     "impulse_response": "analyses.response",
     "step_response": "analyses.response",
@@ -117,11 +139,19 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "SecondOrder": "analyses.forms",
     "StateSpace": "analyses.forms",
     "forms": "analyses.forms",
+    "lazy": "analyses.lazy",
+    "handling": ("analyses.handling", "handling_diagram"),
+    "handling_diagram": "analyses.handling",
     "limit": "analyses.limits",
+    "limit_cycles": "analyses.cycles",
     "moment_line": "analyses.pitching",
     "static_margin": "analyses.pitching",
+    "rollover": "analyses.rollover",
     "routh": "analyses.routh",
     "simulate": "analyses.simulate",
+    "margins": "analyses.margins",
+    "simulate_delayed": "analyses.delays",
+    "describe_controller": "analyses.laws",
     "Step": "analyses.manoeuvres",
     "Ramp": "analyses.manoeuvres",
     "Sine": "analyses.manoeuvres",
@@ -130,10 +160,15 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "Gust": "analyses.manoeuvres",
     "Measured": "analyses.manoeuvres",
     "static_stability": "analyses.static",
+    "steady_family": "analyses.steady_family",
     "steady_turn": "analyses.steady",
     "tire_curves": "analyses.tire_curves",
     "transfer": "analyses.transfer",
+    "stream": "analyses.stream",
     "trim": "analyses.trim",
+    "uncertainty": "analyses.uncertainty",
+    "bonds": "analyses.bonds",
+    "power_flow": "analyses.bonds",
     "show": "analyses.show",
     "list": ("analyses.listing", "listing"),
     "new": ("analyses.listing", "template"),
@@ -141,6 +176,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "check_model": "checks",
     "animate": "plots",
     "plot": "plots",
+    "stable_matrices": "numerics.matrices",
     "write_report": "report",
     "app": "web.serve",
 }

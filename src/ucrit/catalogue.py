@@ -22,6 +22,8 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).resolve().parent
 VEHICLES = HERE / "data" / "vehicles"
+BONDS = ".bonds"
+"""Ending of files that hold a bond graph as text."""
 PUBLISHED = HERE / "data" / "published"
 TIRES = HERE / "data" / "tires"
 
@@ -51,11 +53,13 @@ def vehicle_names() -> tuple[str, ...]:
 
 
 def find_model(name: str, folder: Path | None = None) -> type[Model]:
-    """Return a model class by its catalogue name, or from a Python file (``"my_model.py"``).
+    """Return a model class by its catalogue name, from a Python file or from a bond graph's (``"my_graph.bonds"``).
 
     A file may hold several models: ``"my_model.py:Caster"`` picks one. Relative paths start at ``folder``.
     """
     path, _, cls = name.partition(":") if ".py" in name else (name, "", "")
+    if path.endswith(BONDS):
+        return model_from_file((folder or Path()) / path, path)
     if path.endswith(".py"):
         return _from_file((folder or Path()) / path, cls)
     key = name.replace("_", "-")
@@ -63,6 +67,14 @@ def find_model(name: str, folder: Path | None = None) -> type[Model]:
         raise UcritError(f"there is no model '{name}'{near_match(name, model_names())}")
     module = importlib.import_module(f"ucrit.models.{key.replace('-', '_')}")
     return models_in(module)[0]
+
+
+def model_from_file(path: Path, where: str) -> type[Model]:
+    """Return the model that a bond graph's text file describes; ``where`` names it in messages."""
+    from .bondgraph.model import model_from_text
+
+    text, stem = read_text(path), path.stem.replace("-", "_")
+    return model_from_text(text, stem if stem.isidentifier() else "BondGraph", where)
 
 
 def part_names(kind: type[Part]) -> tuple[str, ...]:
@@ -209,12 +221,36 @@ def find_controller(name: str) -> type[Controller]:
 
 
 def controlled(model: type[Model], controllers: tuple[str, ...]) -> type[Model]:
-    """Return a model under the control of controllers of the catalogue."""
+    """Return a model under the control of controllers: names of the catalogue, or makers with arguments.
+
+    Makers are those of `ucrit.control.MAKERS`: ``"lag(delta_f)"``, ``"state-feedback(delta_f, delta_r)"``. Each is made
+    for the model and the controllers before it.
+    """
     if not controllers:
         return model
     from .control import closed
 
-    return closed(model, *map(find_controller, controllers))
+    for name in controllers:
+        model = closed(model, _controller(name, model))
+    return model
+
+
+def _controller(name: str, model: type[Model]) -> type[Controller]:
+    """Return a controller by name, or the one that a maker makes for a model."""
+    maker, bracket, rest = name.partition("(")
+    if not bracket:
+        return find_controller(name)
+    from .control import MAKERS
+
+    key = maker.strip().replace("_", "-")
+    if key not in MAKERS or not rest.rstrip().endswith(")"):
+        known = ", ".join(f"{each}(...)" for each in MAKERS)
+        raise UcritError(f"there is no controller '{name}'{near_match(key, MAKERS)}; made for a model are {known}")
+    arguments = [word.strip() for word in rest.rstrip()[:-1].split(",") if word.strip()]
+    try:
+        return MAKERS[key](model, *arguments)
+    except TypeError:
+        raise UcritError(f"controller '{name}': {len(arguments)} arguments are not what {key} takes") from None
 
 
 def models_in(module: ModuleType) -> list[type[Model]]:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from ucrit import UcritError, critical, load, modes
+from ucrit.analyses.dense import dense_branches
 from ucrit.analyses.locus import FARTHEST, SMALLEST, STEP, locus
 from ucrit.analyses.modes import eigenvalues
 from ucrit.catalogue import vehicle_names
@@ -115,3 +116,31 @@ def test_array_vehicles_and_missing_speeds_are_refused():
         locus(load("caravan").with_(m=[1000, 1200]))
     with pytest.raises(UcritError, match="a range must be given"):
         locus(load("caravan-rigid-hitch").with_(b=0), "b")
+
+
+@pytest.mark.parametrize(
+    ("name", "top"),
+    [("benchmark-bicycle", 10), ("caravan", 45), ("shimmying-caster", 30), ("car-inertial", 40)],
+)
+def test_filled_in_branches_are_the_eigenvalues(name, top):
+    name = name if name in vehicle_names() else "bmw-320i"
+    vehicle = load(name)
+    speed = type(vehicle).declaration.speed
+    dense, coarse = (locus(vehicle, speed, 0.1, top, points=n) for n in (2500, 500))
+    exact = eigenvalues(vehicle.with_(**{speed: dense.values}))
+    size = np.abs(exact).max()
+    for k in range(dense.branches.shape[1]):  # each branch value is an eigenvalue, and none is taken twice
+        gap = np.abs(exact - dense.branches[:, k : k + 1])
+        assert gap.min(axis=1).max() < 1e-8 * size
+        exact[np.arange(len(exact)), gap.argmin(axis=1)] = np.inf
+    step = np.abs(np.diff(dense.branches, axis=0)).max() / size
+    assert step < 0.05
+    assert dense.names == coarse.names
+    np.testing.assert_allclose(dense.branches.sum(axis=1).imag, 0, atol=1e-9 * size)
+
+
+def test_branches_of_high_order_are_not_filled_in():
+    truck = load("coach-truck")
+    nodes = np.array([10.0, 20.0])
+    found = eigenvalues(truck.with_(V=nodes))
+    assert dense_branches(truck, "V", np.linspace(10, 20, 9), nodes, found) is None

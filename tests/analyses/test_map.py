@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ucrit import UcritError, find_model, load
-from ucrit.analyses import stability_map as module
+from ucrit.analyses import judge
 from ucrit.analyses.modes import eigenvalues
 from ucrit.analyses.modes import growth as growth_of
 from ucrit.analyses.stability_map import stability_map
@@ -70,7 +70,7 @@ def test_blocks_and_order_change_nothing(data, block):
     grid = {name: spread(caravan, name, sizes[name]) for name in names}
     whole = stability_map(caravan, **grid).stable
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(module, "BLOCK", block)
+        patch.setattr(judge, "BLOCK", block)
         parts = stability_map(caravan, **grid)
     np.testing.assert_array_equal(parts.stable, whole)
     swapped = dict(reversed(grid.items()))

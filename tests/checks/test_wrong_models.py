@@ -326,3 +326,42 @@ def test_model_with_longitudinal_motion_needs_even():
 
     assert failing(Rolling) == ["mirror symmetry"]
     assert failing(Even) == []
+
+
+class TwoWheels(Model):
+    """Two spinning wheels, left and right, that a plate couples, made for a test in 2026."""
+
+    I: float = param("kg m^2", "inertia", above=0)
+    c: float = param("N m s", "damping", above=0)
+    d: float = param("N m s^3", "drag", above=0)
+
+    omega_l = state("1/s", "spin on the left")
+    omega_r = state("1/s", "spin on the right")
+
+    even = ("omega_l", "omega_r")
+    sides = (("omega_l", "omega_r"),)
+
+    def equations(self, x, dx):
+        shared = self.c * (x.omega_l - x.omega_r)
+        return self.I * dx.omega_l + self.d * x.omega_l**3 + shared, self.I * dx.omega_r - shared + self.drag(x)
+
+    def drag(self, x):
+        return self.d * x.omega_r**3
+
+
+def test_pairs_change_sides_in_the_mirror():
+    class OneSide(TwoWheels):
+        """A wheel that drags more than the other, made for a test in 2026."""
+
+        def drag(self, x):
+            return 2 * self.d * x.omega_r**3
+
+    class Misnamed(TwoWheels):
+        """A pair that is not there, made for a test in 2026."""
+
+        sides = (("omega_l", "omega_x"),)
+
+    found = {c.name: c for c in check_model(TwoWheels).checks}["mirror symmetry"]
+    assert found.passed
+    assert any("the rate of omega" in c.detail for c in check_model(OneSide).failed)
+    assert any("sides names 'omega_x'" in c.detail for c in check_model(Misnamed).failed)

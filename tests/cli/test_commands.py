@@ -127,6 +127,12 @@ def test_set_and_upto_reach_the_analysis(run: Run) -> None:
         (["sweep", "caravan", "mm=1:2"], "there is no parameter 'mm'; did you mean 'm'?"),
         (["sweep", "caravan", "m=1:2", "--set", "m=3"], "given twice"),
         (["sweep", "caravan", "m=1:2", "-o", "x.xls"], "must end in .csv"),
+        (["boundary", "caravan"], "missing argument"),
+        (["boundary", "caravan", "mm=1:2", "U=3:4"], "there is no parameter 'mm'; did you mean 'm'?"),
+        (["boundary", "caravan", "m=1:2"], "two or three parameters"),
+        (["boundary", "caravan", "m=1:2:3", "U=3:4"], "write LO:HI"),
+        (["boundary", "caravan", "m=1:2", "U=3:4", "--tolerance", "2"], "the tolerance"),
+        (["boundary", "caravan", "m=1:2", "U=3:4", "-o", "x.xls"], "must end in .csv"),
         (["completion", "tcsh"], "'tcsh'"),
         (["--frob"], "there is no option '--frob'"),
     ],
@@ -158,6 +164,8 @@ def test_examples_in_the_help_run(run: Run, tmp_path: Path, monkeypatch: pytest.
     monkeypatch.setattr("uvicorn.Server.run", lambda *_, **__: None)  # the explorer would wait for visitors
     monkeypatch.setattr("webbrowser.open", lambda _: True)
     monkeypatch.setattr("ucrit.web.serve.listen", lambda *_: socket.create_server(("127.0.0.1", 0)))
+
+    Path("mine.bonds").write_text(run("bonds", "oscillator", "--text").stdout)
     tried = 0
     for name in COMMANDS:
         for line in re.findall(rf"^    (ucrit {name} .*)$", run(name, "--help").stdout, re.MULTILINE):
@@ -227,6 +235,18 @@ def test_check(run: Run) -> None:
     result = run("check", "trailer-kinematic")
     assert result.exit_code == 0
     assert "pass  equations" in result.stdout
+
+
+def test_boundary_writes_every_format(run: Run, tmp_path: Path) -> None:
+    ask = ("boundary", "caravan", "c=0:8000", "U=20:180 km/h", "--tolerance", "0.05")
+    for ending in ("csv", "nc", "json", "mat", "png", "svg"):
+        path = tmp_path / f"out.{ending}"
+        assert run(*ask, "-o", path).exit_code == 0
+        assert path.stat().st_size > 500
+    rows = run(*ask).stdout.splitlines()
+    assert rows[0] == "point,c [N m s/rad],U [m/s],kind,line"
+    assert rows == (tmp_path / "out.csv").read_text().splitlines()
+    assert {row.split(",")[3] for row in rows[1:]} == {"flutter"}
 
 
 def test_sweep_writes_every_format(run: Run, tmp_path: Path) -> None:

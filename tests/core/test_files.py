@@ -78,7 +78,8 @@ def test_a_template_only_lacks_numbers(name):
         parse_vehicle(text, "new.toml", FIND)
     for parameter in find_model(name).declaration.parameters.values():
         size = 0.5 if parameter.sign else 0.1  # products of inertia are less than moments
-        value = size if parameter.allows(size) else (parameter.lower + parameter.upper) / 2
+        middle = (parameter.lower + parameter.upper) / 2
+        value = next(x for x in (size, -size, middle) if parameter.allows(x))
         text = text.replace(f"# {parameter.name} = ", f"{parameter.name} = {value} ")
     assert parse_vehicle(text, "new.toml", FIND).model_id() == name
 

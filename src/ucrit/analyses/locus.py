@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -16,6 +16,7 @@ from ..core.possible import allowed
 from ..numerics.tracking import track_adaptive
 from .convert import Series, Table, Tabular, complex_series, unit_of
 from .critical import critical, parameter_name
+from .dense import dense_branches
 from .modes import eigensystem, eigenvalues, growth, modes
 
 Array = npt.NDArray[Any]
@@ -28,6 +29,9 @@ FARTHEST = 10.0
 
 STEP = 0.05
 """Change of an eigenvalue in one step, as a share of its size, above which the step is halved."""
+
+TRACKED = 2000
+"""Points that are tracked; further ones are filled in between."""
 
 ROUNDS = 6
 """Times that steps are halved."""
@@ -129,7 +133,20 @@ def locus(
     lo, hi = _range(vehicle, name, lower, upper)
     now = float(vehicle.values[name])
     reference = min(max(now, lo), hi)
-    grid = _refined(vehicle, name, np.unique(np.append(np.linspace(lo, hi, points), reference)), 8 * points)
+    few = min(points, TRACKED)
+    grid = _refined(vehicle, name, np.unique(np.append(np.linspace(lo, hi, few), reference)), 8 * few)
+    result = _tracked(vehicle, name, grid, reference, depth)
+    if points <= few:
+        return result
+    more = np.unique(np.append(np.linspace(lo, hi, points), grid))
+    branches = dense_branches(vehicle, name, more, grid, result.branches)
+    if branches is None:
+        return _tracked(vehicle, name, _refined(vehicle, name, more, 8 * points), reference, depth)
+    return replace(result, values=more, branches=branches)
+
+
+def _tracked(vehicle: Model, name: str, grid: Array, reference: float, depth: int) -> Locus:
+    """Follow the eigenvalues over a grid that holds the reference."""
 
     def family(values: Array) -> tuple[Array, Array]:
         return eigensystem(vehicle.with_(**{name: values}))

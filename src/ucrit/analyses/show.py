@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from ..catalogue import PUBLISHED, find_model, load, model_names, vehicle_names
+from ..catalogue import BONDS, PUBLISHED, controller_names, find_model, load, model_names, vehicle_names
 from ..core.cache import cached
 from ..core.compiled import direction
 from ..core.declare import Input, Output, Parameter, Variable
@@ -188,11 +188,13 @@ def resolve(subject: type[Model] | Model | str | os.PathLike[str]) -> tuple[type
     if isinstance(subject, type):
         return subject, None
     name = os.fspath(subject)
-    if ".py" in name or name.replace("_", "-") in model_names():
+    if ".py" in name or name.endswith(BONDS) or name.replace("_", "-") in model_names():
         return find_model(name), None
     if name in vehicle_names() or name.endswith(".toml") or os.sep in name or os.path.isfile(name):
         vehicle = load(name)
         return type(vehicle), vehicle
+    if name.replace("_", "-") in controller_names():
+        raise UcritError(f"'{name}' is a controller: it can be shown alone, and judged with a vehicle")
     raise UcritError(f"there is no model or vehicle '{name}'{near_match(name, [*model_names(), *vehicle_names()])}")
 
 

@@ -30,14 +30,15 @@ def declarations(subject: Subject) -> str:
 
 
 def used(subject: Subject) -> str:
-    """Every parameter, variable and input occurs in the equations or outputs."""
+    """Every parameter, variable and input occurs in the equations or outputs, but for what a part need not use."""
     traced = subject.traced
+    of_parts = {name for slot in subject.model.declaration.slots.values() for name in slot.declared}
     occurring = set().union(*(e.free_symbols for e in (*traced.residuals, *traced.outputs, *traced.basic.values())))
     for name, symbol in {
         **traced.parameters,
         **dict(zip(subject.model.declaration.inputs, traced.u, strict=True)),
     }.items():
-        if symbol not in occurring:
+        if symbol not in occurring and name not in of_parts:
             raise FailedCheckError(f"{name} is declared and never used")
     for chain in traced.q:
         if chain[-1] not in occurring:

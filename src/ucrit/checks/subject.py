@@ -14,7 +14,7 @@ import numpy as np
 from ..catalogue import PUBLISHED
 from ..core.derive import symbolic
 from ..core.linear import LinearSystem
-from ..core.model import STATEMENTS, Model, Names
+from ..core.model import Model, Names, is_current
 from ..core.motion import Motion, motion
 from ..core.trace import Traced, trace
 from .published import Entry, read_published
@@ -67,16 +67,14 @@ class Subject:
     @property
     def derivations(self) -> list[str]:
         """Names of the methods that derive the equations again."""
-        return sorted(name for name in dir(self.model) if name.startswith("equations_") and self.is_current(name))
+        found = (
+            name for name in dir(self.model) if name.startswith("equations_") and callable(getattr(self.model, name))
+        )
+        return sorted(name for name in found if self.is_current(name))
 
     def is_current(self, method: str) -> bool:
-        """Tell whether a method is no older in the line of classes than the statement of motion in use.
-
-        One that a base class wrote for its own equations says nothing about a class that states new ones.
-        """
-        lines = [vars(base) for base in self.model.__mro__]
-        stated = next(i for i, names in enumerate(lines) if any(name in names for name in STATEMENTS))
-        return any(method in names for names in lines[: stated + 1])
+        """Tell whether a method is no older in the line of classes than the statement of motion in use."""
+        return is_current(self.model, method)
 
     def groups(self, traced: Traced) -> dict[str, Names]:
         """Symbols of variables, rates and inputs as a model's methods take them."""

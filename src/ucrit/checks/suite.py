@@ -7,6 +7,7 @@ from typing import Any
 
 from ..core.errors import UcritError
 from . import (
+    bonds,
     conservation,
     declarations,
     derivations,
@@ -30,6 +31,7 @@ CHECKS: tuple[tuple[str, Callable[[Subject], str]], ...] = (
     ("published transfer functions", double_entry.transfer),
     ("published motion", derivations.published_motion),
     ("further derivations", derivations.derivations),
+    ("bond graph", bonds.bond_graph),
     ("published critical values", stability.critical),
     ("published criteria", stability.criterion),
     ("published numbers", eigenvalues.numbers),

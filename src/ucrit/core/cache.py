@@ -22,7 +22,7 @@ from .model import Model
 from .part import Slot
 
 PACKAGE = Path(__file__).resolve().parent.parent
-DERIVING = ("core", "numerics", "analyses")
+DERIVING = ("core", "numerics", "bondgraph", "analyses")
 _memory: dict[tuple[type[Model], str], Any] = {}
 
 
@@ -121,7 +121,7 @@ def _pieces(value: Any, seen: set[int]) -> Iterator[str]:
         yield from _pieces(value.law, seen)
     elif isinstance(value, Mapping):
         yield repr(sorted(value.items(), key=repr))
-    elif id(value) in seen:
+    elif id(value) in seen or _is_stamped(value):
         return
     elif isinstance(value, FunctionType):
         seen.add(id(value))
@@ -135,6 +135,12 @@ def _pieces(value: Any, seen: set[int]) -> Iterator[str]:
         yield from _class_pieces(value, seen)
     else:
         yield type(value).__name__
+
+
+def _is_stamped(value: Any) -> bool:
+    """Tell whether the code of a function or class is part of the package's own that is stamped as a whole."""
+    place = (getattr(value, "__module__", None) or "").split(".")
+    return place[0] == __name__.partition(".")[0] and len(place) > 1 and place[1] in DERIVING
 
 
 def _global_pieces(function: FunctionType, seen: set[int]) -> Iterator[str]:

@@ -66,14 +66,15 @@ def _printer() -> Any:
     return Printer({"fully_qualified_modules": True})
 
 
-def build(source: str, name: str, *, exact: bool = False) -> Callable[..., tuple[Any, ...]]:
+def build(source: str, name: str, *, exact: bool = False, functions: Any = None) -> Callable[..., tuple[Any, ...]]:
     """Compile generated source and return its function.
 
-    With ``exact=True`` it runs on fractions; functions other than arithmetic are then rounded to doubles.
+    With ``exact=True`` it runs on fractions; functions other than arithmetic are then rounded to doubles. Another
+    kind of number brings its own ``functions``, with NumPy's names.
     """
     import numpy
 
-    namespace: dict[str, Any] = {"numpy": _ExactFunctions() if exact else numpy, "math": math}
+    namespace: dict[str, Any] = {"numpy": functions or (_ExactFunctions() if exact else numpy), "math": math}
     exec(compile(source, f"<generated {name}>", "exec"), namespace)
     function: Callable[..., tuple[Any, ...]] = namespace[name]
     return function

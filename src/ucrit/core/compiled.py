@@ -53,6 +53,11 @@ class Compiled:
             self.model, f"slopes{self.direction:+d}", lambda: derive_facts("slope", self.model, self.direction)
         )
 
+    @cached_property
+    def size_facts(self) -> Any:
+        """Sources of functions that bound the coefficients' sizes, and units of rounding; see `ucrit.core.bounds`."""
+        return cached(self.model, f"sizes{self.direction:+d}", lambda: derive_facts("size", self.model, self.direction))
+
     @property
     def order(self) -> int:
         """Number of states, equal to the degree of the characteristic polynomial."""
@@ -87,6 +92,11 @@ class Compiled:
     def coefficients(self) -> Callable[[Arguments], tuple[Any, ...]]:
         """Function of the parameters giving a_0 ... a_n, each broadcast only over what it depends on."""
         return build(self._facts["coefficients"], "coefficients")
+
+    @property
+    def source(self) -> str:
+        """Source of `coefficients`, straight-line code of one function."""
+        return str(self._facts["coefficients"])
 
     @cached_property
     def exact_coefficients(self) -> Callable[[Arguments], tuple[Any, ...]]:
@@ -244,8 +254,12 @@ def deciding_coefficients(vehicle: Model) -> tuple[Any, ...]:
     ``p``: its roots lie in the left half plane if and only if those of p are simple and on the imaginary axis
     (F. R. Gantmacher, The Theory of Matrices (1959), volume 2, chapter XV, sections 7 and 16).
     """
-    functions = compiled(type(vehicle), direction(vehicle))
-    a = coefficients(vehicle)[functions.structural_zeros :]
+    return deciding(compiled(type(vehicle), direction(vehicle)), coefficients(vehicle))
+
+
+def deciding(functions: Compiled, a: Sequence[Any]) -> tuple[Any, ...]:
+    """Return `deciding_coefficients` from all characteristic coefficients."""
+    a = tuple(a)[functions.structural_zeros :]
     if not functions.undamped:
         return a
     return tuple(c + (k + 1) * a[k + 1] if k + 1 < len(a) else c for k, c in enumerate(a))

@@ -42,12 +42,26 @@ def linear_facts(model: type[Model], direction: int) -> dict[str, Any]:
     }
 
 
+def size_facts(model: type[Model], direction: int) -> dict[str, Any]:
+    """Derive bounds of the characteristic coefficients: the sums of their terms' sizes, and how often those round."""
+    polynomial = symbolic(model, direction).polynomial
+    parameters = list(symbolic(model, direction).traced.parameters.values())
+    names = list(polynomial.functions)
+    positive = [polynomial.ring.from_dict({m: abs(c) for m, c in a.terms()}) for a in polynomial.coefficients]
+    degrees = [max((sum(m) for m in a.itermonoms()), default=0) for a in polynomial.coefficients]
+    return {
+        "functions": generate("functions", [parameters], [polynomial.functions[name] for name in names]),
+        "magnitudes": generate("magnitudes", [parameters, names], [a.as_expr() for a in positive]),
+        "units": [len(a) + 6 * degree + 8 for a, degree in zip(polynomial.coefficients, degrees, strict=True)],
+    }
+
+
 def slope_facts(model: type[Model], direction: int) -> dict[str, Any]:
     """Derive how the explicit form changes with every parameter."""
     system = symbolic(model, direction)
     parameters = list(system.traced.parameters.values())
     slopes = [entry.diff(p) for p in parameters for block in (system.explicit.L, system.explicit.R) for entry in block]
-    static = system.polynomial.coefficients[system.polynomial.zeros].as_expr()
+    static = system.polynomial.expressions[system.polynomial.zeros]
     return {
         "slopes": generate("slopes", [parameters], slopes),
         "static": generate("static", [parameters], [static.diff(p) for p in parameters]),
@@ -93,7 +107,10 @@ def motion_slope_facts(model: type[Model]) -> dict[str, Any]:
     parameters = list(traced.parameters.values())
     residuals = solved.M * z - solved.f
     groups = traced.states, traced.highest, traced.u, parameters
-    by = {"residual": (*traced.states, *traced.u, *parameters), "output": (*groups[0], *groups[1], *groups[2])}
+    by = {
+        "residual": (*traced.states, *traced.u, *parameters),
+        "output": (*traced.states, *traced.highest, *traced.u, *parameters),
+    }
     return {
         name: _sparse(name, groups, expressions, variables)
         for (name, variables), expressions in zip(by.items(), (residuals, traced.outputs), strict=True)

@@ -24,16 +24,16 @@ def check_dimensions(traced: Traced) -> None:
     free = {chain[0] for chain in traced.q[len(declared.variables) :]}
     where = traced.model.model_id()
     for number, residual in enumerate(traced.residuals, 1):
-        _dimension(residual.xreplace(dict.fromkeys(free, sp.S.Zero)), known, f"{where}: equation {number}")
+        dimension_of(residual.xreplace(dict.fromkeys(free, sp.S.Zero)), known, f"{where}: equation {number}")
     for output, expression in zip(declared.outputs.values(), traced.outputs, strict=True):
-        found = _dimension(expression, known, f"{where}: output {output.name}")
+        found = dimension_of(expression, known, f"{where}: output {output.name}")
         if found is not None and found != output.dimension:
             raise ModelError(f"{where}: output {output.name} is declared in {output.unit} but comes out in {found}")
 
 
 def check_sum(traced: Traced, expression: Any, where: str) -> None:
     """Raise `ModelError` if an expression combines unlike units; its own unit may be any."""
-    _dimension(expression, _known(traced), where)
+    dimension_of(expression, _known(traced), where)
 
 
 def _known(traced: Traced) -> dict[Any, Dimension]:
@@ -47,7 +47,7 @@ def _known(traced: Traced) -> dict[Any, Dimension]:
     return known
 
 
-def _dimension(expression: Any, known: dict[Any, Dimension], where: str) -> Dimension | None:
+def dimension_of(expression: Any, known: dict[Any, Dimension], where: str) -> Dimension | None:
     """Return the dimension of an expression, ``None`` for zero, which fits anything."""
     if expression.is_zero:
         return None
@@ -57,9 +57,9 @@ def _dimension(expression: Any, known: dict[Any, Dimension], where: str) -> Dime
         return NUMBER
     if isinstance(expression, sp.Piecewise):
         for relation in sp.And(*(condition for _, condition in expression.args)).atoms(sp.core.relational.Relational):
-            _alike(relation, [_dimension(side, known, where) for side in relation.args], where)
-        return _alike(expression, [_dimension(value, known, where) for value, _ in expression.args], where)
-    parts = [_dimension(argument, known, where) for argument in expression.args]
+            _alike(relation, [dimension_of(side, known, where) for side in relation.args], where)
+        return _alike(expression, [dimension_of(value, known, where) for value, _ in expression.args], where)
+    parts = [dimension_of(argument, known, where) for argument in expression.args]
     if expression.is_Mul:
         total = NUMBER
         for part in parts:

@@ -13,7 +13,8 @@ one of three ways (argument names choose what is passed; ``x`` values, ``dx`` an
 ``possible(self)`` says what values of several parameters may be together (see `ucrit.core.possible`).
 ``events(self, x, dx, ddx, u)`` returns what shall be noticed along the motion (see `ucrit.core.events`),
 ``drawing(self, x, u)`` what the vehicle looks like (see `ucrit.core.drawing`).
-Any method named ``equations_<how>`` is a further derivation of the same vehicle, compared with the first.
+Any method named ``equations_<how>`` is a further derivation of the same vehicle, compared with the first; a bond graph,
+``bond_graph(self, u)``, is one by `ucrit.bondgraph.equations_bond_graph`.
 """
 
 from __future__ import annotations
@@ -31,6 +32,7 @@ from .errors import ModelError, UcritError, near_match
 from .made import made, reference, resolve
 from .part import Part, Slot
 from .possible import check_together
+from .tolerances import Tolerances
 
 ARGUMENTS = {
     "equations": ("x", "dx", "ddx", "u"),
@@ -43,6 +45,7 @@ ARGUMENTS = {
     "events": ("x", "dx", "ddx", "u"),
     "drawing": ("x", "u"),
     "basic_motion": (),
+    "bond_graph": ("u",),
 }
 STATEMENTS = ("equations", "kinetic_energy", "matrices", "closed_loop")
 
@@ -79,12 +82,13 @@ class Declaration:
 
 @dataclass(frozen=True)
 class Info:
-    """Who a vehicle is: its name, where its numbers come from, the file it was read from, a remark."""
+    """Who a vehicle is: its name, where its numbers come from, the file it was read from, a remark, tolerances."""
 
     name: str = ""
     source: str = ""
     file: str = ""
     note: str = ""
+    tolerances: Tolerances = Tolerances()
 
 
 @dataclass_transform(kw_only_default=True, frozen_default=True, field_specifiers=(param, speed))
@@ -105,8 +109,8 @@ class Model:
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        cls.declaration = _declare(cls)
-        _check_methods(cls)
+        cls.declaration = declared(cls)
+        check_methods(cls)
         cls.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
             [
                 inspect.Parameter(
@@ -239,8 +243,8 @@ class Model:
         copy.__dict__["info"] = self.info
         return copy
 
-    def with_info(self, **info: str) -> Self:
-        """Return a copy with another name, source, file or note."""
+    def with_info(self, **info: Any) -> Self:
+        """Return a copy with another name, source, file, note or tolerances."""
         copy = self.with_()
         copy.__dict__["info"] = replace(self.info, **info)
         return copy
@@ -288,7 +292,8 @@ class _Found:
         return MappingProxyType({k: v for k, v in self.by_name.items() if isinstance(v, kind)})
 
 
-def _declare(cls: type[Model]) -> Declaration:
+def declared(cls: type[Model]) -> Declaration:
+    """Collect what a class and its bases declare."""
     found = _Found()
     for base in reversed(cls.__mro__):
         for name, value in vars(base).items():
@@ -322,7 +327,8 @@ def _with_parts(cls: type[Model], declared: Mapping[str, Any]) -> dict[str, Any]
     return flat
 
 
-def _check_methods(cls: type[Model]) -> None:
+def check_methods(cls: type[Model]) -> None:
+    """Raise `ModelError` where a class states no motion, or a method asks for an argument that there is not."""
     stated = [name for name in STATEMENTS if hasattr(cls, name)]
     if cls.declaration.variables and not stated:
         raise ModelError(f"{cls.__name__}: state the motion by one of {', '.join(STATEMENTS)}")
@@ -334,6 +340,16 @@ def _check_methods(cls: type[Model]) -> None:
                     raise ModelError(
                         f"{cls.__name__}.{name}: there is no argument '{argument}'{near_match(argument, allowed)}"
                     )
+
+
+def is_current(model: type[Model], method: str) -> bool:
+    """Tell whether a method is no older in the line of classes than the statement of motion in use.
+
+    One that a base class wrote for its own equations says nothing about a class that states new ones.
+    """
+    lines = [vars(base) for base in model.__mro__]
+    stated = next(i for i, names in enumerate(lines) if any(name in names for name in STATEMENTS))
+    return any(method in names for names in lines[: stated + 1])
 
 
 def argument_names(method: Callable[..., Any]) -> list[str]:

@@ -16,13 +16,14 @@ from .model import Model
 
 
 class Slopes(NamedTuple):
-    """Matrices (..., rows, columns): ``w' = A dw + B du + E dp``, ``y = C dw + D du`` about a point of the motion."""
+    """Matrices (..., rows, columns): ``w' = A dw + B du + E dp``, ``y = C dw + D du + F dp`` about a point."""
 
     A: Array
     B: Array
     C: Array
     D: Array
     E: Array
+    F: Array
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,8 @@ class Motion:
     def highest(self, w: Array, u: Array, arguments: Arguments) -> Array:
         """Return the highest derivatives and algebraic unknowns, states along the first axis of ``w``."""
         n = int(self._facts["size"])
-        entries = np.broadcast_arrays(*self._function(w, u, arguments), np.zeros(np.shape(w)[1:]))[:-1]
+        with np.errstate(all="ignore"):  # laws with cases compute them all, also where they do not hold
+            entries = np.broadcast_arrays(*self._function(w, u, arguments), np.zeros(np.shape(w)[1:]))[:-1]
         flat = np.moveaxis(np.array(entries, dtype=float), 0, -1)
         M = flat[..., : n * n].reshape(*flat.shape[:-1], n, n)
         z = np.linalg.solve(M, flat[..., n * n :, None])[..., 0]
@@ -108,16 +110,23 @@ class Motion:
             rows.append(row)
         by_all = np.stack(rows, axis=-2)
         outputs = len(self.model.declaration.outputs)
-        direct = self._stacked("output", (outputs, n + len(z) + m), lead, (w, z, u, arguments))
-        Cw, Cz, D = np.split(direct, [n, n + len(z)], axis=-1)
-        by_output = np.concatenate([Cw, D], axis=-1) + Cz @ dz[..., : n + m]
-        return Slopes(
-            by_all[..., :n], by_all[..., n : n + m], by_output[..., :n], by_output[..., n:], by_all[..., n + m :]
-        )
+        direct = self._stacked("output", (outputs, n + len(z) + m + len(arguments)), lead, (w, z, u, arguments))
+        Cw, Cz, rest = np.split(direct, [n, n + len(z)], axis=-1)
+        by_output = np.concatenate([Cw, rest], axis=-1) + Cz @ dz
+        (A, B, E), (C, D, F) = (np.split(whole, [n, n + m], axis=-1) for whole in (by_all, by_output))
+        return Slopes(A, B, C, D, E, F)
+
+    @property
+    def cyclic(self) -> tuple[bool, ...]:
+        """Which states no rate depends on, such as the place on the road: they never settle and never matter."""
+        used = {j for name in ("residual",) for _, j in self._slope_facts[name]["places"]}
+        used |= {i for kind, i in self._facts["rates"] if kind == "w"}
+        return tuple(j not in used for j in range(len(self.labels)))
 
     def _mass(self, w: Array, u: Array, arguments: Arguments, lead: tuple[int, ...]) -> Array:
         n = int(self._facts["size"])
-        entries = self._function(w, u, arguments)[: n * n]
+        with np.errstate(all="ignore"):
+            entries = self._function(w, u, arguments)[: n * n]
         return np.stack([np.broadcast_to(e, lead) for e in entries], axis=-1).reshape(*lead, n, n)
 
     def _stacked(self, name: str, shape: tuple[int, int], lead: tuple[int, ...], groups: Any) -> Array:
@@ -166,7 +175,8 @@ class Motion:
     def event_values(self, w: Array, u: Array, arguments: Arguments) -> Array:
         """Return the values of the events, one a row, which cross zero where they happen."""
         z = self.highest(w, u, arguments)
-        values = self._event_functions[0](w, z, u, arguments)
+        with np.errstate(all="ignore"):
+            values = self._event_functions[0](w, z, u, arguments)
         return np.array(np.broadcast_arrays(*values, np.zeros(np.shape(w)[1:]))[:-1], dtype=float)
 
     def event_changes(self, which: int) -> bool:
@@ -189,7 +199,8 @@ class Motion:
     def outputs(self, w: Array, u: Array, arguments: Arguments) -> Array:
         """Return the model's outputs, one a row."""
         z = self.highest(np.asarray(w, dtype=float), u, arguments)
-        values = self._outputs(w, z, u, arguments)
+        with np.errstate(all="ignore"):
+            values = self._outputs(w, z, u, arguments)
         return np.array(np.broadcast_arrays(*values, np.zeros(np.shape(w)[1:]))[:-1], dtype=float)
 
 

@@ -16,6 +16,9 @@ from sympy.polys.rings import PolyElement, PolyRing
 from .declare import Parameter
 from .grouped import Group
 
+MAX_TRIGSIMP = 400
+"""Operations in expressions with sines and cosines above which those are not simplified: it would take minutes."""
+
 Swap = dict[Any, Any]
 Row = list[list[Any]]  # row[j][k]: coefficient of the k-th derivative of variable j
 
@@ -51,7 +54,10 @@ def _assumption(function: Any, parameters: Mapping[Any, Parameter]) -> dict[str,
 
 def polynomial_field(expressions: Sequence[Any], bounds: Mapping[Any, Any]) -> tuple[Any, list[Any], dict[Any, Any]]:
     """Return a field of rational functions in the parameters, the expressions in it, and what its symbols stand for."""
-    simple = [sp.trigsimp(e) if e.has(sp.sin, sp.cos, sp.tan) else e for e in map(sp.sympify, expressions)]
+    simple = [sp.sympify(e) for e in expressions]
+    waves = [e.has(sp.sin, sp.cos, sp.tan) for e in simple]
+    if sum(e.count_ops() for e, wave in zip(simple, waves, strict=True) if wave) <= MAX_TRIGSIMP:
+        simple = [sp.trigsimp(e) if wave else e for e, wave in zip(simple, waves, strict=True)]
     swap, back = function_symbols(simple, bounds)
     domain, elements = construct_domain([e.xreplace(swap) for e in simple], field=True)
     return domain, elements, back

@@ -42,4 +42,4 @@ def latex(expression: Any) -> str:
 
 def mathml(expression: Any) -> str:
     """Return an expression as presentation MathML, to be put inside a ``<math>`` element."""
-    return str(_printers()[2].doprint(expression))
+    return str(_printers()[2].doprint(expression)).replace("<mo><</mo>", "<mo>&lt;</mo>")

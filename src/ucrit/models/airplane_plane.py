@@ -5,6 +5,7 @@ centre of mass, the tail's l_t behind it; both meet the air as the point where t
 the two lifts share the weight such that they balance about the centre of mass.
 """
 
+from ..bondgraph import Graph, I, R, Se, Sf, bodies, equations_bond_graph, one, running_gear
 from ..core import Drawing, Model, cos, output, param, speed, state
 from ..parts.shapes import airplane_side
 from ..parts.wings import angle_of_attack
@@ -36,11 +37,16 @@ class AirplanePlane(Model):
         lift = (trimmed / self.U**2 + C * alpha) * (self.U**2 + downward**2)
         return lift * cos(alpha)
 
+    def wing_force(self, downward):
+        share = self.l_t / (self.x_a + self.l_t)
+        return self.upward_force(self.C, self.m * self.g * share, downward)
+
+    def tail_force(self, downward):
+        share = self.x_a / (self.x_a + self.l_t)
+        return self.upward_force(self.C_t, self.m * self.g * share, downward)
+
     def lifts(self, W, q):
-        share = self.m * self.g / (self.x_a + self.l_t)
-        wing = self.upward_force(self.C, share * self.l_t, W - self.x_a * q)
-        tail = self.upward_force(self.C_t, share * self.x_a, W + self.l_t * q)
-        return wing, tail
+        return self.wing_force(W - self.x_a * q), self.tail_force(W + self.l_t * q)
 
     def equations(self, x, dx):
         wing, tail = self.lifts(x.W, x.q)
@@ -48,6 +54,26 @@ class AirplanePlane(Model):
             self.m * (dx.W - self.U * x.q) - (self.m * self.g - wing - tail),
             self.I_yy * dx.q - (self.x_a * wing - self.l_t * tail),
         )
+
+    def bond_graph(self):
+        return Graph(
+            bodies.translation(self.m, ("U", "", "W"), ("", "q", "")),
+            one("q"),
+            I("spin", self.I_yy),
+            Sf("speed", self.U),
+            Se("weight", self.m * self.g),
+            "q -> spin",
+            "speed -> U",
+            "weight -> W",
+            running_gear.velocity("wing", W=1, q=-self.x_a),
+            R("wing_lift", effort=self.wing_force),
+            "wing -> wing_lift",
+            running_gear.velocity("tail", W=1, q=self.l_t),
+            R("tail_lift", effort=self.tail_force),
+            "tail -> tail_lift",
+        )
+
+    equations_bond_graph = equations_bond_graph
 
     def outputs(self, x):
         wing, tail = self.lifts(x.W, 0)

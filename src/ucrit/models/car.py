@@ -3,6 +3,7 @@
 Slip angles are those of the tires' contact points to their wheels' planes; steer angles positive to the right.
 """
 
+from ..bondgraph import Graph, Sf, bodies, equations_bond_graph, f, running_gear
 from ..core import Drawing, Model, cos, input, output, param, speed, state
 from ..parts.shapes import car
 from ..parts.tires import linear_side_force, slip_angle
@@ -43,6 +44,20 @@ class Car(Model):
             self.m * (dx.V + x.r * self.U) - (Y_f + Y_r),
             self.I_z * dx.r - (self.a * Y_f - self.b * Y_r),
         )
+
+    def bond_graph(self, u):
+        def force(C, steer):
+            return lambda v: linear_side_force(C, slip_angle(v, f("U")) - steer) * cos(steer)
+
+        return Graph(
+            bodies.plane_body(self.m, self.I_z),
+            Sf("speed", self.U),
+            "speed -> U",
+            running_gear.axle("front", force(self.C_f, u.delta_f), V=1, r=self.a),
+            running_gear.axle("rear", force(self.C_r, u.delta_r), V=1, r=-self.b),
+        )
+
+    equations_bond_graph = equations_bond_graph
 
     def outputs(self, x, dx, u):
         front, rear = self.slip_angles(x, u)

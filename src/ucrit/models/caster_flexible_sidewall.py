@@ -3,7 +3,9 @@
 The tread's contact patch has no mass: its side force at its own slip angle is the sidewall's force -k_s z.
 """
 
+from ..bondgraph import equations_bond_graph, running_gear
 from ..core import param, state, tan
+from ..parts.tires import linear_side_force, slip_angle
 from .caster import Caster
 
 
@@ -30,6 +32,14 @@ class CasterFlexibleSidewall(Caster):
             about_pivot + (self.a + self.b) * self.k_s * x.z,
             dx.z - self.deflection_rate(x, dx),
         )
+
+    def tire_bonds(self, at, along):
+        def side_force(v):
+            return linear_side_force(self.C, slip_angle(v, along))
+
+        return running_gear.flexible_tire(at, side_force, 1 / self.k_s, sidewall="z")
+
+    equations_bond_graph = equations_bond_graph
 
     def equations_newton(self, x, dx, ddx):
         F = -self.k_s * x.z

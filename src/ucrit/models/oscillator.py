@@ -3,6 +3,7 @@
 The spring and the damper may also push where others pull: negative k and b stand for forces that drive the mass.
 """
 
+from ..bondgraph import C, Graph, I, R, equations_bond_graph, one
 from ..core import Drawing, Model, coordinate, param
 from ..parts.shapes import mass_on_a_spring
 
@@ -24,6 +25,19 @@ class Oscillator(Model):
 
     def forces(self, x, dx):
         return ((-self.b * dx.x, dx.x),)
+
+    def bond_graph(self):
+        return Graph(
+            one("x"),
+            I("mass", self.m),
+            C("spring", effort=lambda x: self.k * x),
+            R("damper", self.b),
+            "x -> mass",
+            "x -> spring",
+            "x -> damper",
+        )
+
+    equations_bond_graph = equations_bond_graph
 
     def equations_newton(self, x, dx, ddx):
         return self.m * ddx.x + self.b * dx.x + self.k * x.x

@@ -5,6 +5,7 @@ with the speed U_0. A model derived from this one sets to 0 the velocities that 
 the forces that do so: what is left follows.
 """
 
+from ..bondgraph import Graph, Se, bodies, equations_bond_graph
 from ..core import Model, input, param, speed, state
 from ..parts.rigid_body import components, euler, inertia_tensor, newton, possible_inertia
 
@@ -42,6 +43,19 @@ class RigidBody(Model):
 
     def inertia(self):
         return inertia_tensor(self.I_xx, self.I_yy, self.I_zz, self.I_xy, self.I_xz, self.I_yz)
+
+    def bond_graph(self, u):
+        free = type(self).declaration.variables
+        axes, spin = ([name if name in free else "" for name in names] for names in ("UVW", "pqr"))
+        loads = zip("UVWpqr", components(u, "X Y Z") + components(u, "L M N"), strict=True)
+        sources = [(Se(f"load_{name}", load), f"load_{name} -> {name}") for name, load in loads if name in free]
+        return Graph(
+            bodies.translation(self.m, axes, spin),
+            bodies.rotation(self.inertia(), spin),
+            *(part for source in sources for part in source),
+        )
+
+    equations_bond_graph = equations_bond_graph
 
     def possible(self):
         given = [name for name in type(self).declaration.parameters if name.startswith("I_")]

@@ -3,6 +3,7 @@
 theta is positive when the trailer's rear swings to the left; the axle lies a + b behind the hitch.
 """
 
+from ..bondgraph import C, Graph, R, Sf, bodies, equations_bond_graph, f, one, q, running_gear
 from ..core import Drawing, Model, coordinate, cos, param, sin, speed
 from ..parts.shapes import trailer
 from ..parts.tires import linear_side_force, slip_angle
@@ -36,16 +37,42 @@ class Trailer(Model):
         longitudinal = self.U * cos(x.theta) - dx.x * sin(x.theta)
         return lateral, longitudinal
 
+    def tire_force(self, alpha):
+        return linear_side_force(self.C, alpha)
+
+    def side_force(self, x, dx):
+        return self.tire_force(slip_angle(*self.axle_velocity(x, dx)))
+
     def forces(self, x, dx):
-        lateral, longitudinal = self.axle_velocity(x, dx)
+        lateral, _ = self.axle_velocity(x, dx)
         return (
-            (linear_side_force(self.C, slip_angle(lateral, longitudinal)), lateral),
+            (self.side_force(x, dx), lateral),
             (-self.c * dx.theta, dx.theta),
         )
 
+    def bond_graph(self):
+        theta = q("theta")
+        return Graph(
+            Sf("speed", self.U),
+            one("road"),
+            "speed -> road",
+            one("x"),
+            C("hitch", 1 / self.k),
+            "x -> hitch",
+            bodies.swinging_body(self.m, self.I_c, self.a, ahead="road", left="x"),
+            R("damper", self.c),
+            "theta -> damper",
+            running_gear.velocity("axle", road=sin(theta), x=cos(theta), theta=self.a + self.b),
+            self.tire_bonds("axle", f("road") * cos(theta) - f("x") * sin(theta)),
+        )
+
+    def tire_bonds(self, at, along):
+        return running_gear.tire(at, lambda v: self.tire_force(slip_angle(v, along)))
+
+    equations_bond_graph = equations_bond_graph
+
     def equations_newton(self, x, dx, ddx):
-        lateral, longitudinal = self.axle_velocity(x, dx)
-        Y = linear_side_force(self.C, slip_angle(lateral, longitudinal))
+        Y = self.side_force(x, dx)
         acceleration = ddx.x + self.a * (ddx.theta * cos(x.theta) - dx.theta**2 * sin(x.theta))
         about_hitch = self.m * self.a * (self.a * ddx.theta + ddx.x * cos(x.theta))
         return (

@@ -3,6 +3,7 @@
 theta is positive when the trailer's rear swings to the left; the axle lies a + b behind the hitch.
 """
 
+from ..bondgraph import Graph, Sf, bodies, equations_bond_graph, f, one, q, running_gear
 from ..core import Drawing, Model, coordinate, cos, param, sin, speed
 from ..parts.shapes import trailer
 from ..parts.tires import linear_side_force, slip_angle
@@ -31,6 +32,21 @@ class TrailerRigidHitch(Model):
     def forces(self, x, dx):
         lateral, longitudinal = self.axle_velocity(x, dx)
         return ((linear_side_force(self.C, slip_angle(lateral, longitudinal)), lateral),)
+
+    def bond_graph(self):
+        return Graph(
+            Sf("speed", self.U),
+            one("road"),
+            "speed -> road",
+            bodies.swinging_body(self.m, self.I_c, self.a, ahead="road"),
+            running_gear.velocity("axle", road=sin(q("theta")), theta=self.a + self.b),
+            self.tire_bonds("axle", f("road") * cos(q("theta"))),
+        )
+
+    def tire_bonds(self, at, along):
+        return running_gear.tire(at, lambda v: linear_side_force(self.C, slip_angle(v, along)))
+
+    equations_bond_graph = equations_bond_graph
 
     def equations_newton(self, x, dx, ddx):
         about_hitch = (self.I_c + self.m * self.a**2) * ddx.theta

@@ -1,5 +1,6 @@
 """Axes and signs as in the trailer. SI units and radians."""
 
+from ..bondgraph import Graph, Sf, equations_bond_graph
 from ..core import cos, sin
 from .trailer import Trailer
 
@@ -15,6 +16,11 @@ class TrailerRigidTire(Trailer):
 
     def forces(self, x, dx):
         return ((-self.c * dx.theta, dx.theta),)
+
+    def tire_bonds(self, at, along):
+        return Graph(Sf("grip", 0), f"{at} -> grip")
+
+    equations_bond_graph = equations_bond_graph
 
     def equations_newton(self, x, dx, ddx):
         lateral, _ = self.axle_velocity(x, dx)

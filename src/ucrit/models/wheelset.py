@@ -3,8 +3,9 @@
 The truck frame moves straight with speed V. f_x acts along, f_y across the rolling direction, for one wheel.
 """
 
-from ..core import Drawing, Model, coordinate, param, speed
-from ..parts.creep import contact_velocities, creep_forces
+from ..bondgraph import C, Graph, I, R, Sf, equations_bond_graph, one, q, running_gear
+from ..core import Drawing, Model, coordinate, cos, param, sin, speed
+from ..parts.creep import contact_velocities, creep_force, creep_forces, creepage
 from ..parts.shapes import rails, wheelset
 
 
@@ -30,6 +31,44 @@ class Wheelset(Model):
 
     def potential_energy(self, x):
         return self.k_1 * x.y**2 / 2 + self.k_2 * x.psi**2 / 2
+
+    def bond_graph(self):
+        def creep(name, f):
+            return R(name, effort=lambda v: -creep_force(f, creepage(v, self.V)))
+
+        def contact(side, sign):
+            radius = self.r_0 + sign * self.lambda_ * q("y")
+            return Graph(
+                running_gear.velocity(side, ahead=1, psi=-sign * self.d, spin=-radius),
+                creep(f"{side}_x", self.f_x),
+                creep(f"{side}_y", self.f_y),
+                f"{side} -> {side}_x",
+                f"across -> {side}_y",
+            )
+
+        return Graph(
+            *(one(name) for name in ("y", "psi", "track", "spin", "ahead", "across")),
+            Sf("speed", self.V),
+            Sf("rolling", self.V / self.r_0),
+            "speed -> track",
+            "rolling -> spin",
+            I("mass", self.m),
+            I("yawing", self.I),
+            C("lateral_spring", 1 / self.k_1),
+            C("yaw_spring", 1 / self.k_2),
+            "y -> mass",
+            "y -> lateral_spring",
+            "psi -> yawing",
+            "psi -> yaw_spring",
+            running_gear.velocity("along_wheels", track=cos(q("psi")), y=sin(q("psi"))),
+            running_gear.velocity("across_wheels", y=cos(q("psi")), track=-sin(q("psi"))),
+            "along_wheels -> ahead",
+            "across_wheels -> across",
+            contact("left", 1),
+            contact("right", -1),
+        )
+
+    equations_bond_graph = equations_bond_graph
 
     def forces(self, x, dx):
         velocities = contact_velocities(self.V, x.y, x.psi, dx.y, dx.psi, self.d, self.r_0, self.lambda_)

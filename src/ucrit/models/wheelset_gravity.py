@@ -6,6 +6,7 @@ Yawed by psi, the cones touch the rails further out, where they are thinner, and
 lambda_ d psi^2/2.
 """
 
+from ..bondgraph import C, Graph, R, equations_bond_graph
 from ..core import param
 from .wheelset import Wheelset
 
@@ -17,6 +18,21 @@ class WheelsetGravity(Wheelset):
     R: float = param("m", "radius of the tread's hollow less that of the rail head", above=0)
     c_1: float = param("N s/m", "lateral damping between wheelset and frame", at_least=0)
     c_2: float = param("N m s/rad", "yaw damping between wheelset and frame", at_least=0)
+
+    def bond_graph(self):
+        return Graph(
+            super().bond_graph(),
+            C("load_sideways", effort=lambda y: 2 * self.N / self.R * y),
+            C("load_turned", effort=lambda psi: -2 * self.N * self.lambda_ * self.d * psi),
+            R("lateral_damper", self.c_1),
+            R("yaw_damper", self.c_2),
+            "y -> load_sideways",
+            "y -> lateral_damper",
+            "psi -> load_turned",
+            "psi -> yaw_damper",
+        )
+
+    equations_bond_graph = equations_bond_graph
 
     def potential_energy(self, x):
         rise = x.y**2 / (2 * self.R) - self.lambda_ * self.d * x.psi**2 / 2

@@ -104,7 +104,7 @@ def right_half_plane(a: ArrayLike) -> NDArray[np.int64]:
     with np.errstate(all="ignore"):
         for start in range(0, len(points), _BLOCK):
             block = _scaled(points[start : start + _BLOCK])
-            count[start : start + _BLOCK], certain = _sign_changes(list(np.ascontiguousarray(block.T)))
+            count[start : start + _BLOCK], certain = sign_changes(list(np.ascontiguousarray(block.T)))
             unsure = np.flatnonzero(~certain)
             if len(unsure):
                 count[start + unsure], certain = _count_by_eigenvalues(block[unsure])
@@ -141,7 +141,7 @@ def _stable_up_to_4(a: Sequence[Array]) -> Any:
 
 def _stable_by_routh(a: Sequence[Array]) -> Any:
     """Routh's recursion, and the exact array at the points where a pivot is lost in rounding."""
-    changes, certain = _sign_changes(a)
+    changes, certain = sign_changes(a)
     result = np.asarray(certain & (changes == 0) & (a[-1] > 0))
     possible = reduce(np.logical_and, ((x > 0) & np.isfinite(x) for x in sorted(a, key=np.size)))
     for k in np.argwhere(possible & ~certain):
@@ -164,19 +164,21 @@ def _scaled(a: Array) -> Array:
     return scaled
 
 
-def _sign_changes(a: Sequence[Array]) -> tuple[NDArray[Any], NDArray[np.bool_]]:
+def sign_changes(a: Sequence[Array], error: Sequence[Any] | None = None) -> tuple[NDArray[Any], NDArray[np.bool_]]:
     """Sign changes of Routh's first column, and where its signs hold whatever was rounded."""
     upper, lower = list(a[::-2]), list(a[-2::-2])
-    upper_error, lower_error = ([np.zeros(()) for _ in row] for row in (upper, lower))
+    errors: list[Any] = [np.zeros(())] * len(a) if error is None else list(error)
+    upper_error: list[Any] = errors[::-2]
+    lower_error: list[Any] = errors[-2::-2]
     changes: NDArray[Any] = np.zeros((), dtype=np.int64)
     certain: NDArray[np.bool_] = np.ones((), dtype=bool)
     while lower:
-        pivot, error = np.abs(lower[0]), lower_error[0]
-        certain = certain & (pivot > 2 * error)
+        pivot, doubt = np.abs(lower[0]), lower_error[0]
+        certain = certain & (pivot > 2 * doubt)
         changes = changes + ((upper[0] < 0) != (lower[0] < 0))
         ratio = upper[0] / lower[0]
         size = np.abs(ratio)
-        slack = (upper_error[0] + size * error) / (pivot - error) + _EPS * size
+        slack = (upper_error[0] + size * doubt) / (pivot - doubt) + _EPS * size
         row, row_error = upper[1:], upper_error[1:]
         for j in range(len(lower) - 1):
             product = ratio * lower[j + 1]

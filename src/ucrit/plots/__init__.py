@@ -7,8 +7,13 @@ writes it.
 from __future__ import annotations
 
 from .animation import animate, draw_frame
+from .bond_graph import plot_bond_graph
+from .boundary import plot_boundary
+from .cycles import plot_cycles
 from .damping import plot_damping
 from .dispatch import plot
+from .family import plot_family
+from .handling import plot_handling
 from .mode_shapes import plot_mode_shapes
 from .moment_line import plot_moment_line
 from .motion import plot_simulation
@@ -18,12 +23,18 @@ from .remedies import plot_remedies
 from .root_locus import plot_locus
 from .stability_map import plot_map
 from .tire import plot_tire
+from .uncertainty import plot_uncertainty
 
 __all__ = [
     "animate",
     "draw_frame",
     "plot",
+    "plot_bond_graph",
+    "plot_boundary",
+    "plot_cycles",
     "plot_damping",
+    "plot_family",
+    "plot_handling",
     "plot_locus",
     "plot_map",
     "plot_mode_shapes",
@@ -33,4 +44,5 @@ __all__ = [
     "plot_remedies",
     "plot_simulation",
     "plot_tire",
+    "plot_uncertainty",
 ]

@@ -6,6 +6,11 @@ from collections.abc import Callable
 from typing import Any
 
 from ..core.errors import UcritError
+from .bond_graph import plot_bond_graph
+from .boundary import plot_boundary
+from .cycles import plot_cycles
+from .family import plot_family
+from .handling import plot_handling
 from .mode_shapes import plot_mode_shapes
 from .moment_line import plot_moment_line
 from .motion import plot_simulation
@@ -13,6 +18,7 @@ from .overview import plot_overview
 from .remedies import plot_remedies
 from .stability_map import plot_map
 from .tire import plot_tire
+from .uncertainty import plot_uncertainty
 
 
 def _analysis(result: Any, *, figure: Any) -> Any:
@@ -33,15 +39,25 @@ def _modes(found: Any, *, figure: Any) -> Any:
     return plot_mode_shapes(found.list(), found.vehicle, figure=figure)
 
 
+def _bonds(found: Any, *, figure: Any) -> Any:
+    return plot_bond_graph(found.causality, figure=figure)
+
+
 DRAWN: dict[str, tuple[str, Callable[..., Any]]] = {
+    "Bonds": ("bonds", _bonds),
+    "Handling": ("handling_diagram", plot_handling),
+    "SteadyFamily": ("steady_family", plot_family),
+    "LimitCycles": ("limit_cycles", plot_cycles),
     "Analysis": ("analyze", _analysis),
     "Locus": ("locus", _locus),
     "Modes": ("modes", _modes),
     "MomentLine": ("moment_line", plot_moment_line),
     "Remedy": ("remedies", plot_remedies),
     "Simulation": ("simulate", plot_simulation),
+    "StabilityBoundary": ("boundary", plot_boundary),
     "StabilityMap": ("stability_map", plot_map),
     "TireCurves": ("tire_curves", plot_tire),
+    "Uncertainty": ("uncertainty", plot_uncertainty),
 }
 """By the name of a result's class: what returns such results, and what draws them."""
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup
 
@@ -93,7 +93,8 @@ def of_map(analysis: Analysis, asked: Sequence[str] | None, path: Locus | None) 
     first = choices.map_range(analysis, across, MAP_POINTS, path)
     beside = analysis.vehicle.with_(**{across: first[[0, -1]]})
     second = choices.map_range(analysis, up, MAP_POINTS, path, beside)
-    result = stability_map(analysis.vehicle, **{across: first, up: second})
+    ranges: dict[str, Any] = {across: first, up: second}
+    result = stability_map(analysis.vehicle, **ranges)
     description = f"Map of stability over {across} and {up}: stable on {percent(result.share).lstrip('+')} of it."
     return Drawing(
         svg(plot_map(result, vehicle=analysis.vehicle), "map", description),

@@ -1,0 +1,46 @@
+"""``ucrit handling``: a car's steady turns up to the limit."""
+
+from __future__ import annotations
+
+import click
+
+from ..output import writer
+from ..parameters import Name, assignments, complete_parameters, load_vehicle
+
+
+@click.command("handling", short_help="Turns up to the limit: spin or plough-out, and the handling diagram.")
+@click.argument("vehicle", type=Name("vehicle", suffix=".toml"))
+@click.option(
+    "--set",
+    "changes",
+    metavar="NAME=VALUE",
+    multiple=True,
+    shell_complete=complete_parameters,
+    help="Change a parameter; may be repeated.",
+)
+@click.option("--upto", metavar="SPEED", help="Turn at this speed; the vehicle's own by default.")
+@click.option("--slip", metavar="ANGLE", default="0.3", help="End at this slip angle of an axle; 0.3 rad by default.")
+@click.option(
+    "-o", "--out", metavar="FILE", help="Draw the diagram (.png, .svg, .pdf) or write its table (.csv, .json, .mat)."
+)
+def command(vehicle: str, changes: tuple[str, ...], upto: str | None, slip: str, out: str | None) -> None:
+    """Follow the steady turns of VEHICLE at one speed, from straight running to what its tires can do.
+
+    Says which axle gives way first, at what lateral acceleration, and from where on a turn is unstable with the
+    steering held. Wants a car whose tires saturate, such as the model car-handling.
+
+    \b
+    Examples:
+      ucrit handling spinning-car
+      ucrit handling spinning-car --upto "70 km/h" --out diagram.png
+      ucrit handling ploughing-car --set rear_mu=0.5 --out diagram.csv
+
+    Exit status: 0 done, whatever the limit; 2 wrong input.
+    """
+    from ...analyses.handling import handling_diagram
+
+    write = None if out is None else writer(out)
+    result = handling_diagram(load_vehicle(vehicle, assignments(changes, "rear_mu=0.5"), upto), slip=slip)
+    click.echo(result)
+    if write is not None:
+        write(result)

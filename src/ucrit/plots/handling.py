@@ -1,0 +1,112 @@
+"""Cars near the limit: axle characteristics, handling curve, and steer angle against curvature."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ..core.errors import UcritError
+from . import labels, style
+
+if TYPE_CHECKING:
+    from ..analyses.handling import Handling
+
+Array = npt.NDArray[Any]
+
+GRAVITY = 9.80665
+ROOM = 1.06
+
+
+def plot_handling(found: Handling, *, figure: Any = None) -> Any:
+    """Draw a handling diagram.
+
+    On the left the lateral acceleration that each axle gives against its slip angle; in the middle the difference of
+    the two slip angles at equal lateral acceleration, the handling curve; on the right the steer angle against the
+    curvature of the path. Unstable turns are dashed.
+
+    Parameters
+    ----------
+    found
+        `ucrit.handling_diagram(vehicle)`.
+    figure
+        Empty figure to draw into; a new one by default.
+
+    Returns
+    -------
+    matplotlib.figure.Figure
+    """
+    with style.settings():
+        fig = figure or style.new_figure(width=2 * style.WIDTH, height=3.6)
+        if fig.get_axes():
+            raise UcritError("the handling diagram needs an empty figure, this one has axes already")
+        axles, curve, steer = fig.subplots(1, 3)
+        curve.sharey(axles)
+        _axles(axles, found)
+        _curve(curve, found)
+        _steer(steer, found)
+        for axes in (axles, curve, steer):
+            style.tidy(axes)
+    return fig
+
+
+def _axles(axes: Any, found: Handling) -> None:
+    height = found.a_y / GRAVITY
+    for index, (name, slip) in enumerate((("front axle", found.front), ("rear axle", found.rear))):
+        axes.plot(
+            np.rad2deg(slip), height, color=style.colour(index), linestyle=style.dash(index), linewidth=1.9, label=name,
+            gid=name.replace(" ", "-"),
+        )  # fmt: skip
+    axes.set_xlabel("slip angle [deg]")
+    axes.set_ylabel("lateral acceleration [g]")
+    axes.set_ylim(0, ROOM * height.max())
+    axes.set_xlim(0, None)
+    axes.legend(frameon=False, fontsize=8.5, loc="lower right")
+
+
+def _curve(axes: Any, found: Handling) -> None:
+    axes.axvline(0, color=style.MUTED, linewidth=0.8)
+    _by_stability(axes, np.rad2deg(found.difference), found.a_y / GRAVITY, found.stable, "handling")
+    inside = np.rad2deg(found.difference)[found.a_y <= 0.99 * found.largest]
+    reach = max(float(np.abs(inside).max()), 0.5) * 1.25
+    axes.set_xlim(-reach, reach)
+    side = {"ha": "center", "va": "bottom", "xycoords": ("axes fraction", "axes fraction")}
+    style.label(axes, "oversteer", (0.25, 0.02), **side)
+    style.label(axes, "understeer", (0.75, 0.02), **side)
+    axes.set_xlabel("front less rear slip angle [deg]")
+
+
+def _steer(axes: Any, found: Handling) -> None:
+    delta = np.rad2deg(found.delta)
+    for part in found.ranges:
+        if part.kind == "unstable":
+            low, high = sorted(part.curvature)
+            axes.axvspan(low, high, color=style.UNSTABLE, linewidth=0, zorder=0, gid="unstable")
+    _by_stability(axes, found.curvature, delta, found.stable, "steer")
+    near = found.a_y <= 0.995 * found.largest
+    low, high = float(delta[near].min()), float(delta[near].max())
+    axes.set_ylim(min(low, 0) - 0.15 * (high - low), high + 0.25 * (high - low))
+    axes.set_xlim(0, ROOM * float(found.curvature.max()))
+    for part, after in zip(found.ranges[:-1], found.ranges[1:], strict=True):
+        at = part.curvature[1]
+        axes.plot([at], [np.interp(at, found.curvature[near], delta[near])], "o", color=style.INK, markersize=4,
+                  gid=f"{part.kind}-{after.kind}")  # fmt: skip
+    axes.locator_params(axis="x", nbins=5)
+    axes.legend(frameon=False, fontsize=8.5, loc="upper left")
+    axes.set_xlabel(f"curvature 1/{labels.math_symbol('R')} [{labels.unit_text('1/m')}]")
+    axes.set_ylabel(f"steer angle {labels.math_symbol(found.steer)} [deg]")
+
+
+def _by_stability(axes: Any, x: Array, y: Array, stable: Array, gid: str) -> None:
+    """Draw a curve, stable pieces solid and unstable ones dashed, joined where they meet."""
+    for flag, dash, word in ((True, "-", "stable"), (False, (0, (3, 1.6)), "unstable")):
+        mask = stable == flag
+        beside = mask.copy()
+        if not flag:
+            beside[:-1] |= mask[1:]
+        if beside.any():
+            axes.plot(
+                np.where(beside, x, np.nan), np.where(beside, y, np.nan), color=style.colour(2 if flag else 1),
+                linestyle=dash, linewidth=1.9, label=word, gid=f"{gid}-{word}",
+            )  # fmt: skip

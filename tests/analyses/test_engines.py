@@ -1,0 +1,176 @@
+"""All engines give one answer, that of exact arithmetic, on random models and exactly on boundaries."""
+
+import os
+import subprocess
+import sys
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from ucrit import Model, UcritError, coordinate, find_model, load, param, stability_map
+from ucrit.analyses import judge
+from ucrit.analyses.judge import settle
+from ucrit.analyses.modes import eigenvalues, growth
+from ucrit.core import kernels
+from ucrit.core.errors import MissingExtraError
+
+pytest.importorskip("numba")
+
+
+class Chain(Model):
+    """Three masses between springs, pushed round by follower forces: of sixth order."""
+
+    m: float = param("kg", "mass", above=0)
+    k: float = param("N/m", "stiffness", above=0)
+    c: float = param("N s/m", "damping", above=0)
+    f: float = param("N/m", "cross stiffness")
+
+    x = coordinate("m", "first displacement")
+    y = coordinate("m", "second displacement")
+    z = coordinate("m", "third displacement")
+
+    def matrices(self):
+        K = [[2 * self.k, -self.k, self.f], [-self.k - self.f, 2 * self.k, -self.k], [0, -self.k, self.k]]
+        return K, [[self.c, 0, 0], [0, self.c, 0], [0, 0, self.c]], [[self.m, 0, 0], [0, self.m, 0], [0, 0, self.m]]
+
+
+def around(vehicle, names, sizes, low=0.3, high=3.0):
+    values = (float(vehicle.values[name]) or 1.0 for name in names)
+    return {name: now * np.linspace(low, high, n) for name, now, n in zip(names, values, sizes, strict=True)}
+
+
+@pytest.mark.parametrize(
+    ("name", "names"),
+    [
+        ("caravan", ("c", "U")),
+        ("caravan", ("U", "m", "c")),
+        ("shimmying-caster", ("U", "k")),
+        ("chain", ("k", "c")),
+        ("satellite-largest-axis", ("I_zz", "Omega")),
+        ("boeing-747", ("U",)),
+    ],
+)
+def test_engines_agree(name, names):
+    vehicle = Chain(m=1, k=1, c=0.1, f=0.3) if name == "chain" else load(name)
+    names = [n for n in names if n in vehicle.values] or list(vehicle.values)[:2]
+    narrow = {"low": 1.0, "high": 1.5} if hasattr(vehicle, "possible") else {}
+    grid = around(vehicle, names, (37, 23, 5)[: len(names)], **narrow)
+    numpy = stability_map(vehicle, engine="numpy", **grid)
+    numba = stability_map(vehicle, engine="numba", **grid)
+    np.testing.assert_array_equal(numpy.stable, numba.stable)
+    place = np.indices(numpy.stable.shape).reshape(len(names), -1)
+    columns = {n: x[i] for (n, x), i in zip(grid.items(), place, strict=True)}
+    np.testing.assert_array_equal(numpy.stable.ravel(), settle(vehicle, columns))
+
+
+@settings(max_examples=20, deadline=None)
+@given(st.integers(0, 10**6), st.sampled_from(["caravan", "coach-truck", "car-and-caravan", "wheelset", "navion"]))
+def test_the_answer_is_that_of_eigenvalues_on_random_vehicles(seed, name):
+    vehicle = load(name)
+    random = np.random.default_rng(seed)
+    parameters = type(vehicle).declaration.parameters
+    changed = {n: float(v) * 10 ** random.uniform(-1, 1) for n, v in vehicle.values.items()}
+    vehicle = vehicle.with_(**{n: x for n, x in changed.items() if parameters[n].allows(x)})
+    free = [n for n in parameters if parameters[n].allows(float(vehicle.values[n]) * 3)]
+    grid = {str(n): float(vehicle.values[n]) * np.geomspace(0.4, 2, 12) for n in random.choice(free, 2, replace=False)}
+    grid = {n: x for n, x in grid.items() if parameters[n].allows(x).all() and np.ptp(x)}
+    if not grid:
+        return
+    result = stability_map(vehicle, engine="numpy", **grid)
+    swept = vehicle.with_(**grid)
+    values = eigenvalues(swept)
+    rates = (growth(swept, values) / np.abs(values).max(axis=-1)).transpose([list(swept.dims).index(n) for n in grid])
+    sure = np.abs(rates) > 1e-7
+    np.testing.assert_array_equal(result.stable[sure], (rates < 0)[sure])
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_exactly_marginal_points_are_not_stable(engine):
+    free = find_model("trailer-rigid-tire-undamped")(m=1000, I_c=1500, a=1.5, b=1, k=1e4, U=20)
+    assert stability_map(free, engine=engine, b=[0.99, 1.0, 1.01]).stable.tolist() == [False, False, True]
+    b = np.array([np.nextafter(1, 0), 1.0, np.nextafter(1, 2)])
+    assert stability_map(free, engine=engine, b=b).stable.tolist() == [False, False, True]
+    # marginal all over: a b m = I_c with numbers that are not exact in binary
+    m = np.geomspace(0.1, 1e5, 50)
+    many = free.with_(a=0.1, b=0.3)
+    flags = [stability_map(many.with_(I_c=float(x) * 0.1 * 0.3), engine=engine, m=[x, 2 * x]).stable for x in m]
+    for x, (at, above) in zip(m, flags, strict=True):
+        assert above
+        assert at == (Fraction(float(x)) * Fraction(0.1) * Fraction(0.3) > Fraction(float(x) * 0.1 * 0.3))
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_extreme_numbers(engine):
+    caravan = load("caravan")
+    grid = {"k": np.array([1e-200, 1e-3, 1e5, 1e200]), "C": np.array([1e-150, 1e5, 1e150])}
+    stable = stability_map(caravan, engine=engine, **grid).stable
+    assert stable.shape == (4, 3)
+    np.testing.assert_array_equal(stable, stability_map(caravan, engine="numpy", **grid).stable)
+
+
+def test_both_directions_and_values_out_of_order():
+    caravan = load("caravan")
+    U = np.array([30.0, -5.0, 10.0, -20.0, 25.0])
+    for engine in ("numpy", "numba"):
+        result = stability_map(caravan, engine=engine, U=U, c=[4000.0, 0.0])
+        single = [[stability_map(caravan, U=[u], c=[c]).stable[0, 0] for c in (4000.0, 0.0)] for u in U]
+        np.testing.assert_array_equal(result.stable, single)
+
+
+def test_threads_change_nothing(monkeypatch):
+    grid = around(load("caravan"), ("c", "U"), (211, 113))
+    whole = {e: stability_map(load("caravan"), engine=e, **grid).stable for e in ("numpy", "numba")}
+    monkeypatch.setattr(judge, "ONE_THREAD", 1)
+    monkeypatch.setattr(judge, "TILE", 999)
+    monkeypatch.setattr(judge, "BLOCK", 777)
+    for engine, expected in whole.items():
+        np.testing.assert_array_equal(stability_map(load("caravan"), engine=engine, **grid).stable, expected)
+
+
+def test_margins_are_those_of_a_sweep():
+    from ucrit import sweep
+
+    grid = {"c": [0, 2000, 4000], "U": [15, 30]}
+    result, expected = stability_map(load("caravan"), margins=True, **grid), sweep(load("caravan"), **grid)
+    np.testing.assert_allclose(result.growth, expected.growth, rtol=1e-9)
+    np.testing.assert_allclose(result.damping, expected.damping, rtol=1e-9)
+    assert {"growth", "damping_ratio"} <= {series.name for series in result.table().data}
+
+
+def test_unknown_and_missing_engines_are_refused(monkeypatch):
+    with pytest.raises(UcritError, match=r"no engine 'nunba'; did you mean 'numba'\?"):
+        stability_map(load("caravan"), engine="nunba", U=[10, 20])
+    monkeypatch.setitem(sys.modules, "numba", None)
+    with pytest.raises(MissingExtraError, match=r"pip install 'ucrit\[fast\]'"):
+        stability_map(load("caravan"), engine="numba", U=[10, 20])
+    monkeypatch.setattr(judge, "COMPILED_PAYS", 1)
+    assert stability_map(load("caravan"), U=[10, 20]).stable.tolist() == [True, True]
+
+
+def test_no_gpu_is_said():
+    from numba import cuda
+
+    if not cuda.is_available():
+        with pytest.raises(UcritError, match="needs an NVIDIA GPU"):
+            kernels.needed("cuda")
+
+
+def test_the_kernel_for_gpus_in_numbas_simulator():
+    code = (
+        "import numpy as np; from ucrit import load, stability_map\n"
+        "for name, x, y in (('caravan', 'c', 'U'), ('coach-truck', 'c_s', 'V')):\n"
+        "    v = load(name); grid = {n: float(v.values[n])*np.linspace(.3, 3, 7) for n in (x, y)}\n"
+        "    one, two = (stability_map(v, engine=e, **grid).stable for e in ('numpy', 'cuda'))\n"
+        "    assert (one == two).all() and one.any() and not one.all(), name\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        env={**os.environ, "NUMBA_ENABLE_CUDASIM": "1"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr

@@ -1,0 +1,114 @@
+"""Handling diagrams: gradients, limits and regions against closed forms and the linear analysis."""
+
+import numpy as np
+import pytest
+
+from ucrit import UcritError, handling_diagram, load, plots, rollover, steady_turn
+from ucrit.analyses.handling_words import sentences
+
+
+@pytest.fixture(scope="module")
+def spinning():
+    return handling_diagram(load("spinning-car"))
+
+
+@pytest.fixture(scope="module")
+def ploughing():
+    return handling_diagram(load("ploughing-car"))
+
+
+def test_the_gradient_begins_as_the_linear_one(spinning, ploughing):
+    linear = steady_turn(load("understeering-car"))
+    for found in (spinning, ploughing):
+        assert found.gradient[0] == pytest.approx(linear.gradient, rel=1e-9)
+        assert found.gradient_deg_per_g[0] == pytest.approx(linear.gradient_deg_per_g, rel=1e-9)
+
+
+def test_the_axles_grip_is_the_limit(spinning, ploughing):
+    assert (spinning.limit, ploughing.limit) == ("spin", "plough-out")
+    assert spinning.largest == pytest.approx(0.8 * 9.80665, rel=1e-9)
+    assert ploughing.largest == pytest.approx(0.85 * 9.80665, rel=0.02)  # less, as the front wheels are steered
+
+
+def test_slip_angles_are_the_tires_at_the_axles_share_of_the_load(spinning):
+    """Brush tires solved for the slip: share (1 - (1 - s)^3) of the friction is a_y/(mu g)."""
+    car = spinning.vehicle
+    below = spinning.a_y < 0.99 * spinning.largest
+    used = spinning.a_y[below] / (car.rear_mu * car.g)
+    load_ = car.m * car.g * car.a / (2 * (car.a + car.b))
+    slip = np.arctan((1 - np.cbrt(1 - used)) * 3 * car.rear_mu * load_ / car.rear_C)
+    np.testing.assert_allclose(spinning.rear[below], slip, rtol=1e-6, atol=1e-12)
+
+
+def test_regions_follow_each_other_to_the_spin(spinning, ploughing):
+    assert [part.kind for part in spinning.ranges] == ["understeer", "oversteer", "unstable"]
+    assert [part.kind for part in ploughing.ranges] == ["understeer"]
+    under, over, unstable = spinning.ranges
+    assert under.a_y[1] == over.a_y[0] < over.a_y[1] == unstable.a_y[0] == spinning.unstable_from
+    peak = spinning.a_y[np.argmax(spinning.difference)]
+    assert under.a_y[1] == pytest.approx(peak, rel=0.01)
+    crest = spinning.curvature[np.argmax(spinning.delta)]
+    assert unstable.curvature[0] == pytest.approx(crest, rel=0.02)
+    assert np.isnan(ploughing.unstable_from)
+
+
+def test_slower_cars_spin_later():
+    """At low speed the damping of both axles keeps an oversteering car stable (Karnopp 2004, section 6.V)."""
+    from_ = [handling_diagram(load("spinning-car").with_(U=U)).unstable_from for U in (15, 25, 50)]
+    assert np.all(np.diff(from_) < 0)
+
+
+def test_a_car_of_equal_axles_is_neutral_and_slides_on_both():
+    car = load("ploughing-car").with_(b=1.25, front_C=4e4, rear_C=4e4, front_mu=0.9, rear_mu=0.9)
+    found = handling_diagram(car)
+    assert found.gradient[0] == pytest.approx(0, abs=1e-9)
+    assert found.ranges[0].kind == "neutral"
+    assert found.largest == pytest.approx(0.9 * car.g, rel=0.01)
+
+
+def test_linear_tires_have_no_limit():
+    found = handling_diagram(load("understeering-car"))
+    assert found.limit == ""
+    assert "no axle saturates within the slip angles looked at" in str(found)
+
+
+def test_words_fit_eighty_columns_and_say_the_limit(spinning, ploughing):
+    for found, word in ((spinning, "spins"), (ploughing, "ploughs out")):
+        lines = sentences(found)
+        assert max(map(len, lines)) <= 80
+        assert word in lines[1]
+
+
+def test_what_is_no_car_is_refused():
+    for name, missing in (("caravan", "an output a_y"), ("car-and-caravan", "an output alpha_f")):
+        with pytest.raises(UcritError, match=missing):
+            handling_diagram(load(name))
+    with pytest.raises(UcritError, match="a steer angle steering"):
+        handling_diagram(load("spinning-car"), steer="steering")
+    with pytest.raises(UcritError, match="rolling over needs"):
+        rollover(load("spinning-car"))
+
+
+def test_the_drawing_has_the_curves(spinning):
+    axles, curve, steer = plots.plot_handling(spinning).get_axes()
+    drawn = {line.get_gid(): line.get_xydata() for axes in (axles, curve, steer) for line in axes.lines}
+    np.testing.assert_allclose(drawn["front-axle"][:, 0], np.rad2deg(spinning.front))
+    np.testing.assert_allclose(drawn["front-axle"][:, 1], spinning.a_y / 9.80665)
+    stable = spinning.stable
+    np.testing.assert_allclose(drawn["steer-stable"][stable, 1], np.rad2deg(spinning.delta[stable]))
+    assert np.isnan(drawn["steer-stable"][~stable, 1]).all()
+    at = drawn["oversteer-unstable"][0]
+    assert at[0] == pytest.approx(spinning.ranges[2].curvature[0])
+    assert axles.get_xlabel() == "slip angle [deg]"
+    (shade,) = [p for p in steer.patches if p.get_gid() == "unstable"]
+    assert shade.get_x() == pytest.approx(spinning.ranges[2].curvature[0])
+
+
+def test_families_are_drawn_with_their_changes(spinning):
+    figure = plots.plot(spinning.family)
+    (axes,) = figure.get_axes()
+    points = {line.get_gid(): line.get_xydata() for line in axes.lines}
+    change = spinning.family.changes[0]
+    np.testing.assert_allclose(points["change"][0], [change.value, change.values["delta_f"]])
+    assert axes.get_xlabel() == "lateral acceleration of the centre of mass $a_{y}$ [m/s²]"
+    assert plots.plot(spinning).get_axes()

@@ -1,0 +1,39 @@
+"""``ucrit handling``: words, picture, table, refusals."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from click.testing import Result
+
+Run = Callable[..., Result]
+
+
+def test_prints_the_limit_and_draws(run: Run, tmp_path: Path) -> None:
+    picture = tmp_path / "diagram.svg"
+    done = run("handling", "spinning-car", "--upto", "90 km/h", "--out", str(picture))
+    assert done.exit_code == 0
+    assert "spins: the rear axle saturates first" in done.stdout
+    assert "at 25 m/s" in done.stdout
+    assert picture.read_text().lstrip().startswith("<?xml")
+
+
+def test_writes_a_table(run: Run, tmp_path: Path) -> None:
+    table = tmp_path / "diagram.csv"
+    assert run("handling", "ploughing-car", "--slip", "4 deg", "-o", str(table)).exit_code == 0
+    head, *rows = table.read_text().splitlines()
+    assert head.startswith("point,a_y [m/s^2],curvature [1/m],delta [rad],front [rad],rear [rad]")
+    assert abs(float(rows[-1].split(",")[4]) - 0.0698132) < 1e-6
+
+
+def test_refuses(run: Run) -> None:
+    for arguments, message in (
+        (("handling", "caravan"), "a handling diagram needs an output a_y"),
+        (("handling", "spinning-car", "--out", "x.doc"), "must end in .csv"),
+        (("handling", "spinning-car", "--slip", "3 kg"), "slip"),
+        (("handling", "spining-car"), "did you mean 'spinning-car'"),
+    ):
+        done = run(*arguments)
+        assert done.exit_code == 2, arguments
+        assert message in done.stderr, done.stderr
