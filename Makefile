@@ -10,6 +10,7 @@ demo: $(VENV)/ready
 	@echo "Open caravan.html in a browser for the pictures and the derivation."
 
 test: $(VENV)/ready
+	@$(BIN)/python tools/browser.py
 	$(BIN)/python -m pytest -n 2
 
 lint: $(VENV)/ready

@@ -74,7 +74,13 @@ REFUSED = {
     "simulate": set(),
     "approximation": set(),
     "limit": set(),
-    "criteria": {"car-and-caravan", "coach-truck", "navion", "navion-from-geometry"},
+    "criteria": {
+        "car-and-caravan",
+        "coach-truck",
+        "navion",
+        "navion-from-geometry",
+        "oversteering-car-in-sliding-mode",
+    },
     "critical value": set(),
     "locus": set(),
 }

@@ -14,6 +14,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.bonds import bonds as bonds
     from .analyses.bonds import power_flow as power_flow
     from .analyses.boundary import boundary as boundary
+    from .analyses.certify import certify as certify
     from .analyses.cite import cite as cite
     from .analyses.compare import compare as compare
     from .analyses.convert import to_control as to_control
@@ -22,6 +23,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.critical import critical as critical
     from .analyses.cycles import limit_cycles as cycles  # noqa: F401
     from .analyses.cycles import limit_cycles as limit_cycles
+    from .analyses.delays import simulate_delayed as simulate_delayed
     from .analyses.forms import Descriptor as Descriptor
     from .analyses.forms import NthOrder as NthOrder
     from .analyses.forms import SecondOrder as SecondOrder
@@ -29,6 +31,8 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.forms import forms as forms
     from .analyses.handling import handling_diagram as handling  # noqa: F401
     from .analyses.handling import handling_diagram as handling_diagram
+    from .analyses.laws import describe_controller as describe_controller
+    from .analyses.lazy import lazy as lazy
     from .analyses.limits import limit as limit
     from .analyses.listing import listing as list  # noqa: F401
     from .analyses.listing import template as new  # noqa: F401
@@ -40,6 +44,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.manoeuvres import Sine as Sine
     from .analyses.manoeuvres import SineWithDwell as SineWithDwell
     from .analyses.manoeuvres import Step as Step
+    from .analyses.margins import margins as margins
     from .analyses.modes import modes as modes
     from .analyses.pitching import moment_line as moment_line
     from .analyses.pitching import static_margin as static_margin
@@ -57,11 +62,13 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.steady import axle_loads as axle_loads
     from .analyses.steady import steady_turn as steady_turn
     from .analyses.steady_family import steady_family as steady_family
+    from .analyses.stream import stream as stream
     from .analyses.sweep import sweep as sweep
     from .analyses.tire_curves import cornering_coefficient as cornering_coefficient
     from .analyses.tire_curves import tire_curves as tire_curves
     from .analyses.transfer import transfer as transfer
     from .analyses.trim import trim as trim
+    from .analyses.uncertainty import uncertainty as uncertainty
     from .analyses.verdict import verdict as verdict
     from .catalogue import find_model as find_model
     from .catalogue import load as load
@@ -84,6 +91,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .plots import animate as animate
     from .plots import plot as plot
     from .report import write_report as write_report
+    from .web.serve import app as app
 
 __version__ = "0.1.0"
 
@@ -118,6 +126,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "approximation": "analyses.approximation",
     "audit": "analyses.audit",
     "axle_loads": "analyses.steady",
+    "certify": "analyses.certify",
     "basin": "analyses.basin",
     "cornering_coefficient": "analyses.tire_curves",
     "boundary": "analyses.boundary",
@@ -132,6 +141,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "SecondOrder": "analyses.forms",
     "StateSpace": "analyses.forms",
     "forms": "analyses.forms",
+    "lazy": "analyses.lazy",
     "handling": ("analyses.handling", "handling_diagram"),
     "handling_diagram": "analyses.handling",
     "limit": "analyses.limits",
@@ -141,6 +151,9 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "rollover": "analyses.rollover",
     "routh": "analyses.routh",
     "simulate": "analyses.simulate",
+    "margins": "analyses.margins",
+    "simulate_delayed": "analyses.delays",
+    "describe_controller": "analyses.laws",
     "Step": "analyses.manoeuvres",
     "Ramp": "analyses.manoeuvres",
     "Sine": "analyses.manoeuvres",
@@ -153,7 +166,9 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "steady_turn": "analyses.steady",
     "tire_curves": "analyses.tire_curves",
     "transfer": "analyses.transfer",
+    "stream": "analyses.stream",
     "trim": "analyses.trim",
+    "uncertainty": "analyses.uncertainty",
     "bonds": "analyses.bonds",
     "power_flow": "analyses.bonds",
     "show": "analyses.show",
@@ -165,6 +180,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "plot": "plots",
     "stable_matrices": "numerics.matrices",
     "write_report": "report",
+    "app": "web.serve",
 }
 """Public names, and the module that has each, with its name there where it is another."""
 

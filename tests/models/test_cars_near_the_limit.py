@@ -171,6 +171,6 @@ def test_formulas_with_conditions_are_well_formed():
     from ucrit import show
     from ucrit.report.formulas import formula
 
-    for part in show("car-handling").equations:
+    for part in show("car-four-wheels").equations[:2]:
         assert any(f"<mo>{sign}</mo>" in part.mathml for sign in ("&lt;", ">"))
         assert "math" in formula(part.mathml)

@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from ..catalogue import BONDS, PUBLISHED, find_model, load, model_names, vehicle_names
+from ..catalogue import BONDS, PUBLISHED, controller_names, find_model, load, model_names, vehicle_names
 from ..core.cache import cached
 from ..core.compiled import direction
 from ..core.declare import Input, Output, Parameter, Variable
@@ -190,6 +190,8 @@ def resolve(subject: type[Model] | Model | str | os.PathLike[str]) -> tuple[type
     if name in vehicle_names() or name.endswith(".toml") or os.sep in name or os.path.isfile(name):
         vehicle = load(name)
         return type(vehicle), vehicle
+    if name.replace("_", "-") in controller_names():
+        raise UcritError(f"'{name}' is a controller: it can be shown alone, and judged with a vehicle")
     raise UcritError(f"there is no model or vehicle '{name}'{near_match(name, [*model_names(), *vehicle_names()])}")
 
 

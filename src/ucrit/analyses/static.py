@@ -17,6 +17,9 @@ from ..core.model import Model
 from .critical import critical
 from .verdict import verdict
 
+LONGEST = 600
+"""Operations in the equations up to which the answer is derived in symbols."""
+
 
 @dataclass(frozen=True)
 class StaticStability(Rich):
@@ -132,8 +135,8 @@ def _answer(vehicle: Model, name: str, turning: str) -> tuple[str, float, bool]:
 
 
 def _derive(cls: type[Model], direction: int, name: str, turning: str) -> str:
-    """Solve the explicit equations for one highest derivative per unit of one state."""
-    from sympy import ZZ, Dummy
+    """Solve the explicit equations for one highest derivative per unit of one state; empty if too long to be read."""
+    from sympy import ZZ, Dummy, count_ops
     from sympy.polys.matrices import DomainMatrix
     from sympy.polys.rings import PolyRing
 
@@ -145,6 +148,8 @@ def _derive(cls: type[Model], direction: int, name: str, turning: str) -> str:
 
     system = symbolic(cls, direction)
     e = system.explicit
+    if sum(count_ops(entry) for entry in (*e.L, *e.R)) > LONGEST:
+        return ""
     variables = [chain[0].name for chain in system.traced.q]
     below = [v + "'" * k for v, order in zip(variables, e.orders, strict=True) for k in range(order)]
     n, column = e.L.rows, e.R[:, below.index(name)]

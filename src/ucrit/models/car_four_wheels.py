@@ -9,7 +9,8 @@ they did: results are good up to the first lift. The model ends at standstill, w
 import math
 from types import MappingProxyType
 
-from ..core import Model, cos, input, maximum, output, param, sin, slot, speed, sqrt, state
+from ..core import Drawing, Model, cos, input, maximum, output, param, sin, slot, speed, sqrt, state
+from ..parts.shapes import car
 from ..parts.tires import slip_angle
 from ..parts.tires.linear import Linear
 
@@ -139,3 +140,6 @@ class CarFourWheels(Model):
             "load_transfer": (loads[0] - loads[1] + loads[2] - loads[3]) / (self.m * self.g),
             **dict(zip((f"F_{wheel}" for wheel in WHEELS), loads, strict=True)),
         }
+
+    def drawing(self, x, u):
+        return Drawing("top", car(self.a, self.b, u.delta_f, u.delta_r), turned=True, travel=(x.v_x, x.v_y, x.r))

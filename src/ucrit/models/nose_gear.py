@@ -4,7 +4,8 @@ y is the sideways deflection of the tire at the front of its contact patch; the 
 relaxation length. As in the source c, k and kappa are signed like the moments that they give: negative ones resist.
 """
 
-from ..core import Model, atan, coordinate, param, slot, speed, state
+from ..core import Drawing, Model, atan, coordinate, param, slot, speed, state
+from ..parts.shapes import caster
 from ..parts.tires.clipped import Clipped
 
 
@@ -35,3 +36,6 @@ class NoseGear(Model):
             - (self.c * x.psi + (self.k + self.kappa / self.V) * dx.psi + tire.M_z - self.e * tire.F_y),
             dx.y + self.V / self.sigma * x.y - (self.V * x.psi + (self.e - self.a) * dx.psi),
         )
+
+    def drawing(self, x):
+        return Drawing("top", caster(self.e, angle=-x.psi), travel=(self.V, 0, 0))

@@ -23,6 +23,7 @@ from .remedies import plot_remedies
 from .root_locus import plot_locus
 from .stability_map import plot_map
 from .tire import plot_tire
+from .uncertainty import plot_uncertainty
 
 __all__ = [
     "animate",
@@ -43,4 +44,5 @@ __all__ = [
     "plot_remedies",
     "plot_simulation",
     "plot_tire",
+    "plot_uncertainty",
 ]

@@ -18,6 +18,7 @@ from .overview import plot_overview
 from .remedies import plot_remedies
 from .stability_map import plot_map
 from .tire import plot_tire
+from .uncertainty import plot_uncertainty
 
 
 def _analysis(result: Any, *, figure: Any) -> Any:
@@ -56,6 +57,7 @@ DRAWN: dict[str, tuple[str, Callable[..., Any]]] = {
     "StabilityBoundary": ("boundary", plot_boundary),
     "StabilityMap": ("stability_map", plot_map),
     "TireCurves": ("tire_curves", plot_tire),
+    "Uncertainty": ("uncertainty", plot_uncertainty),
 }
 """By the name of a result's class: what returns such results, and what draws them."""
 

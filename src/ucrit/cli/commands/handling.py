@@ -33,7 +33,7 @@ def command(vehicle: str, changes: tuple[str, ...], upto: str | None, slip: str,
     Examples:
       ucrit handling spinning-car
       ucrit handling spinning-car --upto "70 km/h" --out diagram.png
-      ucrit handling mine.toml --set rear_mu=0.5 --out diagram.csv
+      ucrit handling ploughing-car --set rear_mu=0.5 --out diagram.csv
 
     Exit status: 0 done, whatever the limit; 2 wrong input.
     """

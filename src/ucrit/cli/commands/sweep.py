@@ -10,6 +10,8 @@ from ..output import to_stdout, writer
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 from ..progress import progress
 
+ZARR = ".zarr"
+
 
 @click.command("sweep", short_help="Stability over ranges of parameters, as a table.")
 @click.argument("vehicle", type=Name("vehicle", suffix=".toml"))
@@ -22,8 +24,13 @@ from ..progress import progress
     shell_complete=complete_parameters,
     help="Change a parameter that is not swept; may be repeated.",
 )
-@click.option("-o", "--output", metavar="FILE", help="Write .csv, .nc (netCDF), .json or .mat; else CSV on stdout.")
-def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], output: str | None) -> None:
+@click.option(
+    "-o", "--output", metavar="FILE", help="Write .csv, .nc (netCDF), .json, .mat or .zarr; else CSV on stdout."
+)
+@click.option("--scheduler", metavar="ADDRESS", help="Let the workers of this Dask scheduler compute (only to .zarr).")
+def command(
+    vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], output: str | None, scheduler: str | None
+) -> None:
     """Tabulate stability, growth, damping and eigenvalues for every combination of parameters.
 
     \b
@@ -38,18 +45,39 @@ def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], out
       ucrit sweep caravan "U=20:130:12 km/h"
       ucrit sweep caravan m=1000:1500:50 "U=10:130:60 km/h" -o caravan.nc
       ucrit sweep caravan a=1.5:4:26 --set "m=1.4 t" -o caravan.csv
+      ucrit sweep caravan m=800:2000:40 U=5:45:50 -o large.zarr
+
+    A Zarr store is written piece by piece, may be larger than memory, and is gone on with after an interruption.
 
     Exit status: 0 done; 2 wrong input, nothing is written then.
     """
     from ...analyses.sweep import sweep
 
-    write = to_stdout if output is None else writer(output, pictures=())
+    if output is not None and output.endswith(ZARR):
+        _stream(vehicle, ranges, changes, output, scheduler)
+        return
+    if scheduler is not None:
+        raise click.UsageError("--scheduler needs a store that workers can write to: give -o FILE.zarr too")
+    write = to_stdout if output is None else writer(output, pictures=(), more={ZARR: to_stdout})
     subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
     read = assignments(ranges, '"U=20:130:12 km/h"')
     refuse_both(read, assignments(changes, "a=1.9"))
     with progress("sweep") as advance:
         result = sweep(subject, progress=advance, **read)
     write(result)
+
+
+def _stream(
+    vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], output: str, scheduler: str | None
+) -> None:
+    """Write a sweep to a Zarr store, piece by piece."""
+    from ...analyses.stream import stream
+
+    read = assignments(ranges, '"U=20:130:12 km/h"')
+    refuse_both(read, assignments(changes, "a=1.9"))
+    subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
+    with progress("sweep") as advance:
+        stream(subject, output, kind="sweep", client=scheduler, progress=advance, **read)
 
 
 def refuse_both(ranges: dict[str, Any], changes: dict[str, Any]) -> None:

@@ -18,7 +18,11 @@ class Clipped(Tire):
     delta: float = param("rad", "slip angle beyond which the side force is constant", above=0, default=math.radians(5))
     alpha_g: float = param("rad", "slip angle beyond which no moment is left", above=0, default=math.radians(10))
 
-    def forces(self, F_z: Any, alpha: Any, kappa: Any = 0) -> Forces:
+    def cornering_coefficient(self, F_z: Any) -> Any:
+        """Return the cornering coefficient, in proportion to the load."""
+        return self.c_F * F_z
+
+    def forces(self, F_z: Any, alpha: Any, kappa: Any = 0, gamma: Any = 0) -> Forces:
         """Return the forces on the wheel."""
         clipped = where(abs(alpha) < self.delta, alpha, self.delta * sign(alpha))
         pi = atan2(0 * alpha, -1)  # exact for symbols, unlike math.pi
