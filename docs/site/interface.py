@@ -15,6 +15,7 @@ GROUPS = {
     "plots": "Drawings",
     "report": "Report",
     "numerics": "Numerics",
+    "web": "The explorer",
 }
 
 

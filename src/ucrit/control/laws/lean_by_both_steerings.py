@@ -9,7 +9,7 @@ from ..controller import Controller
 
 
 class LeanByBothSteerings(Controller):
-    """Front steering in proportion to the error of the lean angle, and rear steering in proportion to it."""
+    """Steering at both ends in proportion to the error of the lean angle (after Karnopp 2004, chapter 7)."""
 
     drives = ("delta_f", "delta_r")
 

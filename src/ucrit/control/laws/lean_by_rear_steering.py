@@ -9,7 +9,7 @@ from ..controller import Controller
 
 
 class LeanByRearSteering(Controller):
-    """Rear steering by the error of the lean angle through a compensator of first order."""
+    """Rear steering by the lean error through a compensator of first order (after Karnopp 2004, chapter 7)."""
 
     drives = ("delta_r",)
 
