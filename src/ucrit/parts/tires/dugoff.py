@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from ...core.declare import param
-from ...core.functions import maximum, tan
-from .slip import is_zero, length
+from ...core.functions import length, maximum, tan
+from .slip import is_zero
 from .tire import Forces, Tire
 
 
