@@ -77,6 +77,9 @@ def _close(plant: type[Model], controller: type[Controller]) -> type[Model]:
     body |= {"_plant": plant, "_controller": controller, "__doc__": _title(plant, controller)}
     body |= {"even": (*getattr(plant, "even", ()), *getattr(controller, "even", ()))}
     body |= {"mirror": getattr(plant, "mirror", True) and getattr(controller, "mirror", True)}
+    body |= {"sides": (*getattr(plant, "sides", ()), *getattr(controller, "sides", ()))}
+    body |= {name: getattr(plant, name) for name in KEPT if hasattr(plant, name)}
+    body |= {name: method for name, method in STATED.items() if hasattr(plant, name)}
     if hasattr(plant, "possible") or hasattr(controller, "possible"):
         body["possible"] = _possible
     return type(f"{plant.__name__}With{controller.__name__}", (ClosedLoop,), body)
@@ -86,6 +89,32 @@ def _possible(self: ClosedLoop) -> dict[str, Any]:
     """Return what values must be possible together, for vehicle and controller."""
     stated = [self._bound(cls) for cls in (self._plant, self._controller) if hasattr(cls, "possible")]
     return {statement: true for instance in stated for statement, true in instance.possible().items()}
+
+
+def _events(self: ClosedLoop, x: Any, dx: Any, ddx: Any, u: Any) -> Any:
+    """Return the vehicle's events."""
+    groups = {"x": x, "dx": dx, "ddx": ddx, "u": u}
+    known = {**vars(u), **{symbol.name: value for symbol, value in self._driven(groups).items()}}
+    return call(self._bound(self._plant).events, {**groups, "u": _names("u", known)})
+
+
+def _drawing(self: ClosedLoop, x: Any, u: Any) -> Any:
+    """Return what the vehicle looks like; an input that the controller drives is drawn as on the basic motion."""
+    still = self._bound(self._plant)
+    driven = dict.fromkeys(self._controller.drives, 0.0)
+    given = still.basic_motion().get("u", {}) if hasattr(still, "basic_motion") else {}
+    driven |= {name: value for name, value in given.items() if name in driven}
+    return call(still.drawing, {"x": x, "u": _names("u", {**driven, **vars(u)})})
+
+
+def _names(group: str, values: Mapping[str, Any]) -> Names:
+    return Names(group, {name: value for name, value in values.items() if not name.startswith("_")})
+
+
+STATED = {"events": _events, "drawing": _drawing}
+"""What a vehicle says of itself and goes on saying under control."""
+
+KEPT = ("keeps_speed", "wheel_loads", "valid")
 
 
 def _title(plant: type[Model], controller: type[Controller]) -> str:

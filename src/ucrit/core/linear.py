@@ -161,10 +161,21 @@ def characteristic_polynomial(
     for i in range(n):
         entries = [[elements[k * n * n + i * n + j] for k in range(len(P))] for j in range(n)]
         rows.append(cleared_row(entries, domain, ring, s))
-    determinant = DomainMatrix(rows, (n, n), ring.to_domain()).det()
+    determinant = _determinant(DomainMatrix(rows, (n, n), ring.to_domain()), ring)
     if not determinant:
         raise ModelError(f"{where}: the equations of motion are not independent (their determinant is zero)")
     return _collect(determinant, symbols, functions)
+
+
+def _determinant(matrix: DomainMatrix, ring: PolyRing) -> PolyElement:
+    """Return a determinant as the product of those of the diagonal blocks into which the matrix falls.
+
+    Variables that act on others without being acted on, such as those of actuators, make blocks of their own.
+    """
+    product = ring.one
+    for block in matrix.scc():
+        product *= matrix.extract(block, block).det()
+    return product
 
 
 def _collect(

@@ -9,8 +9,9 @@ they did: results are good up to the first lift. The model ends at standstill, w
 import math
 from types import MappingProxyType
 
-from ..core import Model, cos, input, maximum, output, param, sin, slot, speed, sqrt, state
-from ..parts.tires import slip_angle
+from ..core import Drawing, Model, cos, input, maximum, output, param, sin, slot, speed, sqrt, state
+from ..parts.shapes import car
+from ..parts.tires import longitudinal_slip, slip_angle
 from ..parts.tires.linear import Linear
 
 WHEELS = ("fl", "fr", "rl", "rr")
@@ -98,18 +99,25 @@ class CarFourWheels(Model):
         left, right = self.zeta * roll / self.t_f, (1 - self.zeta) * roll / self.t_r
         return front + left, front - left, rear + right, rear - right
 
-    def wheels(self, x, u):
-        """Of each wheel: forward and rightward force on the car, and moment about its axle."""
+    def tires(self, u):
+        """Tires of the wheels, as they are on their road."""
+        return self.front, self.front, self.rear, self.rear
+
+    def slips(self, x, u):
+        """Of each wheel: slip angle and longitudinal slip."""
         steer = (u.delta_f, u.delta_f, u.delta_r, u.delta_r)
-        tires, spins = (self.front, self.front, self.rear, self.rear), [getattr(x, f"omega_{w}") for w in WHEELS]
-        front, rear = self.loads_at_rest()
-        loads = map(maximum, self.loads(x), (LEAST * front, LEAST * front, LEAST * rear, LEAST * rear))
-        for (ahead, right), load, delta, tire, spin in zip(self.places(), loads, steer, tires, spins, strict=True):
+        for (ahead, right), delta, wheel in zip(self.places(), steer, WHEELS, strict=True):
             forward, sideways = x.v_x - right * x.r, x.v_y + ahead * x.r
             along = forward * cos(delta) + sideways * sin(delta)
             across = sideways * cos(delta) - forward * sin(delta)
-            kappa = (self.R * spin - along) / abs(along)
-            F = tire.forces(load, slip_angle(across, along), kappa)
+            yield slip_angle(across, along), longitudinal_slip(self.R, getattr(x, f"omega_{wheel}"), along)
+
+    def wheels(self, x, u):
+        """Of each wheel: forward and rightward force on the car, and moment about its axle."""
+        steer, (front, rear) = (u.delta_f, u.delta_f, u.delta_r, u.delta_r), self.loads_at_rest()
+        loads = map(maximum, self.loads(x), (LEAST * front, LEAST * front, LEAST * rear, LEAST * rear))
+        for tire, load, delta, slips in zip(self.tires(u), loads, steer, self.slips(x, u), strict=True):
+            F = tire.forces(load, *slips)
             yield F.F_x * cos(delta) - F.F_y * sin(delta), F.F_x * sin(delta) + F.F_y * cos(delta), self.R * F.F_x
 
     def equations(self, x, dx, u):
@@ -143,3 +151,7 @@ class CarFourWheels(Model):
             "load_transfer": (loads[0] - loads[1] + loads[2] - loads[3]) / (self.m * self.g),
             **dict(zip((f"F_{wheel}" for wheel in WHEELS), loads, strict=True)),
         }
+
+    def drawing(self, x, u):
+        shape = car(self.a, self.b, u.delta_f, u.delta_r)
+        return Drawing("top", shape, turned=True, travel=(x.v_x, x.v_y, x.r))
