@@ -22,6 +22,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.forms import NthOrder as NthOrder
     from .analyses.forms import SecondOrder as SecondOrder
     from .analyses.forms import StateSpace as StateSpace
+    from .analyses.dwell import dwell_criteria as dwell_criteria
     from .analyses.forms import forms as forms
     from .analyses.handling import handling_diagram as handling  # noqa: F401
     from .analyses.handling import handling_diagram as handling_diagram
@@ -130,6 +131,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "limit": "analyses.limits",
     "moment_line": "analyses.pitching",
     "static_margin": "analyses.pitching",
+    "dwell_criteria": "analyses.dwell",
     "rollover": "analyses.rollover",
     "routh": "analyses.routh",
     "simulate": "analyses.simulate",
