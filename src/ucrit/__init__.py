@@ -18,11 +18,11 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.convert import to_scipy as to_scipy
     from .analyses.criteria import criteria as criteria
     from .analyses.critical import critical as critical
+    from .analyses.dwell import dwell_criteria as dwell_criteria
     from .analyses.forms import Descriptor as Descriptor
     from .analyses.forms import NthOrder as NthOrder
     from .analyses.forms import SecondOrder as SecondOrder
     from .analyses.forms import StateSpace as StateSpace
-    from .analyses.dwell import dwell_criteria as dwell_criteria
     from .analyses.forms import forms as forms
     from .analyses.handling import handling_diagram as handling  # noqa: F401
     from .analyses.handling import handling_diagram as handling_diagram

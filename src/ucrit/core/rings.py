@@ -31,11 +31,11 @@ def function_symbols(expressions: Iterable[Any], parameters: Mapping[Any, Parame
     """
     found: set[Any] = set()
     for expression in expressions:
-        found |= {f for f in sp.sympify(expression).atoms(sp.Function, sp.Pow) if f.free_symbols and not _is_rational(f)}
+        found |= {
+            f for f in sp.sympify(expression).atoms(sp.Function, sp.Pow) if f.free_symbols and not _is_rational(f)
+        }
     kept = {f: sp.sqrt(f.base) if f.is_Pow else f for f in found}
-    outer = {
-        f for f in kept.values() if isinstance(f, Group) or not any(g.has(f) and f != g for g in kept.values())
-    }
+    outer = {f for f in kept.values() if isinstance(f, Group) or not any(g.has(f) and f != g for g in kept.values())}
     names = {f: sp.Symbol(str(f), **_assumption(f, parameters)) for f in sorted(outer, key=str)}
     swap = {f: names[root] ** (2 * f.exp) if f.is_Pow else names[f] for f, root in kept.items() if root in names}
     return swap, {symbol: f for f, symbol in names.items()}

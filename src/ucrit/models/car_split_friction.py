@@ -34,9 +34,7 @@ class CarSplitFriction(CarFourWheels):
         return {**super().basic_motion(), "u": {"mu_left": 1, "mu_right": 1}}
 
     def tires(self, u):
-        return tuple(
-            tire.on_road(mu) for tire, mu in zip(super().tires(u), (u.mu_left, u.mu_right) * 2, strict=True)
-        )
+        return tuple(tire.on_road(mu) for tire, mu in zip(super().tires(u), (u.mu_left, u.mu_right) * 2, strict=True))
 
     def outputs(self, x, dx, u):
         slips = {f"kappa_{wheel}": kappa for wheel, (_, kappa) in zip(WHEELS, self.slips(x, u), strict=True)}

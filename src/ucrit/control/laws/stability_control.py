@@ -33,7 +33,9 @@ class StabilityControl(Controller):
     r_0: float = param("rad/s", "yaw rate up to which front and rear wheel share", above=0, default=0.05)
     share: float = param("1", "front axle's share of the driver's braking", at_least=0, at_most=1, default=0.65)
 
-    relief: float = param("1", "torque that is taken from the other side, over the torque added", at_least=0, default=1.0)
+    relief: float = param(
+        "1", "torque that is taken from the other side, over the torque added", at_least=0, default=1.0
+    )
 
     r_d = input("rad/s", "desired yaw rate")
     brake = input("N m", "brake torque that the driver demands, all wheels together")
