@@ -174,3 +174,21 @@ def test_formulas_with_conditions_are_well_formed():
     for part in show("car-handling").equations:
         assert any(sign in part.mathml for sign in ("&lt;", "&gt;"))
         assert "math" in formula(part.mathml)
+
+
+@pytest.mark.parametrize("law", ["brush", "dugoff"])
+def test_the_four_wheel_car_on_tires_that_friction_limits_is_the_linear_one_in_gentle_motion(law):
+    from ucrit import check
+    from ucrit.catalogue import find_part
+
+    base = load("four-wheel-car")
+    fitted = type(base).fitted(front=find_part(law, Tire), rear=find_part(law, Tire))
+    names = fitted.declaration.parameters
+    car = fitted(**{n: base.values[n] for n in names if n in base.values})
+    if law == "brush":
+        base = base.with_(front_C_x=base.front_C, rear_C_x=base.rear_C)  # as stiff along as across
+    for mine, linear in zip(state_space(car)[:2], state_space(base)[:2], strict=True):
+        np.testing.assert_allclose(mine, linear, rtol=1e-10, atol=1e-10)
+    report = check(car)
+    assert report.ok, str(report)
+    assert "published for these parts" in str(report)

@@ -77,9 +77,7 @@ class DwellVerdict(Tabular):
         lines = [f"{name}: {'stable' if self.stable else 'NOT STABLE'} in a sine with dwell of {self.manoeuvre.size}"]
         lines.append(f"    yaw rate: second peak {np.degrees(self.peak):.1f} deg/s")
         for time, left, most in zip(self.times, self.remainders, self.allowed, strict=True):
-            shown = (
-                f"{round(100 * left)} %" if np.isfinite(left) else f"the car {self.ended or 'was not followed'} before"
-            )
+            shown = f"{round(100 * left)} %" if np.isfinite(left) else f"before that it {self.ended}"
             lines.append(f"    {time:g} s after completion: {shown} (at most {100 * most:.0f} %)")
         verb = "enough" if self.responsive else "too little"
         lines.append(f"    {ASIDE_AT} s after the beginning: {self.displacement:.2f} m aside, {verb}")

@@ -78,43 +78,34 @@ def _close(plant: type[Model], controller: type[Controller]) -> type[Model]:
     body |= {"even": (*getattr(plant, "even", ()), *getattr(controller, "even", ()))}
     body |= {"mirror": getattr(plant, "mirror", True) and getattr(controller, "mirror", True)}
     body |= {"sides": (*getattr(plant, "sides", ()), *getattr(controller, "sides", ()))}
-    body |= {name: getattr(plant, name) for name in KEPT if hasattr(plant, name)}
-    body |= {name: method for name, method in STATED.items() if hasattr(plant, name)}
+    body |= {name: getattr(plant, name) for name in ("keeps_speed", "wheel_loads", "valid") if hasattr(plant, name)}
     if hasattr(plant, "possible") or hasattr(controller, "possible"):
         body["possible"] = _possible
+    body |= {name: own for name, own in {"events": _events, "drawing": _drawing}.items() if hasattr(plant, name)}
     return type(f"{plant.__name__}With{controller.__name__}", (ClosedLoop,), body)
+
+
+def _events(self: ClosedLoop, x: Any, dx: Any, ddx: Any, u: Any) -> Any:
+    """Return the vehicle's events."""
+    groups = {"x": x, "dx": dx, "ddx": ddx, "u": u}
+    driven = {symbol.name: value for symbol, value in self._driven(groups).items()}
+    return call(self._bound(self._plant).events, {**groups, "u": Names("u", {**_named(u), **driven})})
+
+
+def _drawing(self: ClosedLoop, x: Any, u: Any) -> Any:
+    """Return the vehicle's drawing, its driven inputs at rest: a wheel is shown straight."""
+    rest = dict.fromkeys(self._controller.drives, 0.0)
+    return call(self._bound(self._plant).drawing, {"x": x, "u": Names("u", {**_named(u), **rest})})
+
+
+def _named(group: Any) -> dict[str, Any]:
+    return {name: value for name, value in vars(group).items() if not name.startswith("_")}
 
 
 def _possible(self: ClosedLoop) -> dict[str, Any]:
     """Return what values must be possible together, for vehicle and controller."""
     stated = [self._bound(cls) for cls in (self._plant, self._controller) if hasattr(cls, "possible")]
     return {statement: true for instance in stated for statement, true in instance.possible().items()}
-
-
-def _events(self: ClosedLoop, x: Any, dx: Any, ddx: Any, u: Any) -> Any:
-    """Return the vehicle's events."""
-    groups = {"x": x, "dx": dx, "ddx": ddx, "u": u}
-    known = {**vars(u), **{symbol.name: value for symbol, value in self._driven(groups).items()}}
-    return call(self._bound(self._plant).events, {**groups, "u": _names("u", known)})
-
-
-def _drawing(self: ClosedLoop, x: Any, u: Any) -> Any:
-    """Return what the vehicle looks like; an input that the controller drives is drawn as on the basic motion."""
-    still = self._bound(self._plant)
-    driven = dict.fromkeys(self._controller.drives, 0.0)
-    given = still.basic_motion().get("u", {}) if hasattr(still, "basic_motion") else {}
-    driven |= {name: value for name, value in given.items() if name in driven}
-    return call(still.drawing, {"x": x, "u": _names("u", {**driven, **vars(u)})})
-
-
-def _names(group: str, values: Mapping[str, Any]) -> Names:
-    return Names(group, {name: value for name, value in values.items() if not name.startswith("_")})
-
-
-STATED = {"events": _events, "drawing": _drawing}
-"""What a vehicle says of itself and goes on saying under control."""
-
-KEPT = ("keeps_speed", "wheel_loads", "valid")
 
 
 def _title(plant: type[Model], controller: type[Controller]) -> str:

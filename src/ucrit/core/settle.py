@@ -17,7 +17,7 @@ def settled(expressions: Sequence[Any], basic: Mapping[Any, Any]) -> list[Any]:
 
     A condition that holds as an equality there may hold to one side of it only: its branches stay.
     """
-    values, known = dict(basic), {}
+    values, known = {symbol: sp.sympify(value) for symbol, value in basic.items()}, {}
 
     def walk(e: Any) -> Any:
         if e not in known:
@@ -59,6 +59,8 @@ def verdict(condition: Any, values: Mapping[Any, Any]) -> bool | None:
         return verdict(condition.args[1 if chosen else 2], values)
     if isinstance(condition, Relational) and condition.rel_op in STRICT:
         sides = [side.xreplace(dict(values)) for side in condition.args]
+        if any(side.is_extended_real is not True for side in sides):  # in a branch that cannot be, a pole
+            return None
         if STRICT[condition.rel_op](*sides) == True:  # noqa: E712
             return True
         return False if OPPOSITE[condition.rel_op](*sides) == True else None  # noqa: E712

@@ -153,5 +153,4 @@ class CarFourWheels(Model):
         }
 
     def drawing(self, x, u):
-        shape = car(self.a, self.b, u.delta_f, u.delta_r)
-        return Drawing("top", shape, turned=True, travel=(x.v_x, x.v_y, x.r))
+        return Drawing("top", car(self.a, self.b, u.delta_f, u.delta_r), turned=True, travel=(x.v_x, x.v_y, x.r))

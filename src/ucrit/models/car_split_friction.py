@@ -10,7 +10,7 @@ from .car_four_wheels import WHEELS, CarFourWheels
 
 
 class CarSplitFriction(CarFourWheels):
-    """Plane car on four wheels whose tires friction limits, on a road with two sides (after Karnopp 2004, chapter 11)."""
+    """Plane car on four wheels whose tires friction limits, on a road with two sides (after Karnopp 2004)."""
 
     front = slot(Brush, "each front tire")
     rear = slot(Brush, "each rear tire")

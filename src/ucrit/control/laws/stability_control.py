@@ -11,7 +11,8 @@ left     e < 0: front right (outer)      e > 0: rear left (inner)
 
 The side is that of the error, the axle that of the turn, and where the car hardly turns both wheels share. Where the
 driver brakes, the brakes of the other side give way as well: on a road whose friction differs from side to side nothing
-else helps, since the wheels that should brake more have no grip for it. Inside the dead band the law does nothing: the vehicle's linear equations stay as they are.
+else helps, since the wheels that should brake more have no grip for it. Inside the dead band the law does nothing: the
+vehicle's linear equations stay as they are.
 """
 
 from ...core.declare import input, output, param
@@ -20,7 +21,7 @@ from ..controller import Controller
 
 
 class StabilityControl(Controller):
-    """Stability control by braking one wheel: outer front in oversteer, inner rear in understeer (Karnopp 2004, fig. 11.2)."""
+    """Stability control by braking one wheel: outer front or inner rear (after Karnopp 2004, figure 11.2)."""
 
     drives = ("demand_fl", "demand_fr", "demand_rl", "demand_rr")
     even = ("brake", "added_fl", "added_fr", "added_rl", "added_rr")

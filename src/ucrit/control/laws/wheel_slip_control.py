@@ -12,7 +12,7 @@ WHEELS = ("fl", "fr", "rl", "rr")
 
 
 class WheelSlipControl(Controller):
-    """Brakes that follow their demands with a lag and give way to slip, wheel by wheel (after Karnopp 2004, chapter 11)."""
+    """Brakes that follow their demands with a lag and give way to slip, wheel by wheel (after Karnopp 2004)."""
 
     drives = tuple(f"brake_{wheel}" for wheel in WHEELS)
     even = tuple(f"{kind}_{wheel}" for kind in ("torque", "demand", "release") for wheel in WHEELS)
