@@ -168,14 +168,32 @@ def characteristic_polynomial(
 
 
 def _determinant(matrix: DomainMatrix, ring: PolyRing) -> PolyElement:
-    """Return a determinant as the product of those of the diagonal blocks into which the matrix falls.
+    """Return a determinant, but for its sign, as the product of those of the blocks into which the matrix falls.
 
     Variables that act on others without being acted on, such as those of actuators, make blocks of their own.
     """
     product = ring.one
     for block in matrix.scc():
-        product *= matrix.extract(block, block).det()
+        product *= _by_minors(matrix.extract(block, block).to_list(), ring)
     return product
+
+
+def _by_minors(rows: list[list[PolyElement]], ring: PolyRing) -> PolyElement:
+    """Return a determinant, but for its sign, by Laplace without divisions, each minor of the upper rows once.
+
+    Of sparse matrices of long polynomials only few minors are not zero, and their quotients would cost most.
+    """
+    minors = {0: ring.one}  # by the set of columns, as bits
+    for row in sorted(rows, key=lambda row: sum(map(bool, row))):
+        following: dict[int, PolyElement] = {}
+        for columns, minor in minors.items():
+            for j, entry in enumerate(row):
+                if entry and not columns >> j & 1:
+                    term = minor * entry if (columns >> j).bit_count() % 2 == 0 else -minor * entry
+                    key = columns | 1 << j
+                    following[key] = following[key] + term if key in following else term
+        minors = {columns: minor for columns, minor in following.items() if minor}
+    return next(iter(minors.values()), ring.zero)
 
 
 def _collect(

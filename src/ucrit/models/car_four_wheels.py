@@ -9,7 +9,7 @@ they did: results are good up to the first lift. The model ends at standstill, w
 import math
 from types import MappingProxyType
 
-from ..core import Drawing, Model, cos, input, maximum, output, param, sin, slot, speed, sqrt, state
+from ..core import Drawing, Model, cos, input, output, param, sin, slot, speed, sqrt, state
 from ..parts.shapes import car
 from ..parts.tires import longitudinal_slip, slip_angle
 from ..parts.tires.linear import Linear
@@ -17,6 +17,11 @@ from ..parts.tires.linear import Linear
 WHEELS = ("fl", "fr", "rl", "rr")
 LEAST = 1e-6
 """Load of a wheel that has lifted, as a share of its load at rest, so that tire laws keep a value."""
+
+
+def larger(a, b):
+    """Return the larger of two values, without a condition that conditions of tire laws would enclose."""
+    return (a + b + abs(a - b)) / 2
 
 
 class CarFourWheels(Model):
@@ -115,7 +120,7 @@ class CarFourWheels(Model):
     def wheels(self, x, u):
         """Of each wheel: forward and rightward force on the car, and moment about its axle."""
         steer, (front, rear) = (u.delta_f, u.delta_f, u.delta_r, u.delta_r), self.loads_at_rest()
-        loads = map(maximum, self.loads(x), (LEAST * front, LEAST * front, LEAST * rear, LEAST * rear))
+        loads = map(larger, self.loads(x), (LEAST * front, LEAST * front, LEAST * rear, LEAST * rear))
         for tire, load, delta, slips in zip(self.tires(u), loads, steer, self.slips(x, u), strict=True):
             F = tire.forces(load, *slips)
             yield F.F_x * cos(delta) - F.F_y * sin(delta), F.F_x * sin(delta) + F.F_y * cos(delta), self.R * F.F_x
