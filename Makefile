@@ -10,6 +10,7 @@ demo: $(VENV)/ready
 	@echo "Open caravan.html in a browser for the pictures and the derivation."
 
 test: $(VENV)/ready
+	@$(BIN)/python tools/browser.py
 	$(BIN)/python -m pytest -n 2
 
 lint: $(VENV)/ready
@@ -26,6 +27,11 @@ check: lint types layers
 
 bench: $(VENV)/ready
 	$(BIN)/python -m benchmarks
+
+# The pages of docs, the gallery of examples and the reference, as HTML that opens from disk.
+docs: $(VENV)/ready
+	$(BIN)/python docs/site/build.py
+	@echo "Open build/docs/html/index.html in a browser."
 
 clean:
 	rm -rf $(VENV)

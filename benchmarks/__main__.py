@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import sys
 
-from benchmarks import bicycle, kernels, maps, startup
+from benchmarks import bicycle, explorer, kernels, maps, startup
 from benchmarks.timing import Row
 
 PARTS = {
@@ -21,6 +21,7 @@ PARTS = {
     "boundary": maps.curves,
     "bicycle": bicycle.speeds,
     "startup": startup.processes,
+    "explorer": explorer.latency,
 }
 
 

@@ -10,6 +10,7 @@ import ucrit
 from ucrit import UcritError, load
 from ucrit.catalogue import vehicle_names
 from ucrit.core.compiled import coefficients
+from ucrit.core.possible import allowed
 
 ONE_EACH = list({type(load(name)): name for name in vehicle_names()}.values())
 """One vehicle of every model."""
@@ -29,9 +30,10 @@ def pairs(vehicle):
 def first_parameters(vehicle):
     """Two parameters to map over, each between half and twice its value."""
     values = {k: float(v) for k, v in vehicle.values.items() if float(v) > 0}
-    allowed = type(vehicle).declaration.parameters
-    names = [k for k, v in values.items() if allowed[k].allows([v / 2, 2 * v]).all()][:2]
-    return {k: np.linspace(values[k] / 2, 2 * values[k], 5) for k in names}
+    declared = type(vehicle).declaration.parameters
+    names = [k for k, v in values.items() if declared[k].allows([v / 2, 2 * v]).all()]
+    alone = [k for k in names if allowed(vehicle, k).allows([values[k] / 2, 2 * values[k]]).all()][:2]
+    return {k: np.linspace(values[k] / 2, 2 * values[k], 5) for k in alone}
 
 
 ALWAYS = {
@@ -48,12 +50,12 @@ ALWAYS = {
     "sweep": lambda v: ucrit.sweep(v, **first_parameters(v)),
     "stability_map": lambda v: ucrit.stability_map(v, **first_parameters(v)),
     "compare": lambda v: ucrit.compare(v, load("caravan")),
-    "transfer": lambda v: [ucrit.transfer(v, i, o) for i, o in pairs(v)],
     "frequency_response": lambda v: [ucrit.frequency_response(v, i) for i in inputs(v)],
     "step_response": lambda v: [ucrit.step_response(v, i) for i in inputs(v)],
     "impulse_response": lambda v: [ucrit.impulse_response(v, i) for i in inputs(v)],
 }
 WHERE_IT_FITS = {
+    "transfer": lambda v: [ucrit.transfer(v, i, o) for i, o in pairs(v)],
     "to_control": ucrit.to_control,
     "simulate": lambda v: ucrit.simulate(v, 0.01),
     "approximation": lambda v: ucrit.approximation(v, v),
@@ -74,7 +76,16 @@ REFUSED = {
     "simulate": set(),
     "approximation": set(),
     "limit": set(),
-    "criteria": {"car-and-caravan", "coach-truck", "navion", "navion-from-geometry"},
+    "transfer": {"four-wheel-car"},
+    "criteria": {
+        "benchmark-bicycle",
+        "four-wheel-car",
+        "car-and-caravan",
+        "coach-truck",
+        "navion",
+        "navion-from-geometry",
+        "oversteering-car-in-sliding-mode",
+    },
     "critical value": set(),
     "locus": set(),
 }

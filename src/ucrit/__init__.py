@@ -10,15 +10,21 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.analyze import analyze as analyze
     from .analyses.approximation import approximation as approximation
     from .analyses.audit import audit as audit
+    from .analyses.basin import basin as basin
     from .analyses.bonds import bonds as bonds
     from .analyses.bonds import power_flow as power_flow
     from .analyses.boundary import boundary as boundary
+    from .analyses.certify import certify as certify
+    from .analyses.cite import cite as cite
     from .analyses.compare import compare as compare
     from .analyses.convert import to_control as to_control
     from .analyses.convert import to_scipy as to_scipy
     from .analyses.criteria import criteria as criteria
     from .analyses.critical import critical as critical
     from .analyses.dwell import dwell_criteria as dwell_criteria
+    from .analyses.cycles import limit_cycles as cycles  # noqa: F401
+    from .analyses.cycles import limit_cycles as limit_cycles
+    from .analyses.delays import simulate_delayed as simulate_delayed
     from .analyses.forms import Descriptor as Descriptor
     from .analyses.forms import NthOrder as NthOrder
     from .analyses.forms import SecondOrder as SecondOrder
@@ -26,6 +32,8 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.forms import forms as forms
     from .analyses.handling import handling_diagram as handling  # noqa: F401
     from .analyses.handling import handling_diagram as handling_diagram
+    from .analyses.laws import describe_controller as describe_controller
+    from .analyses.lazy import lazy as lazy
     from .analyses.limits import limit as limit
     from .analyses.listing import listing as list  # noqa: F401
     from .analyses.listing import template as new  # noqa: F401
@@ -37,6 +45,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.manoeuvres import Sine as Sine
     from .analyses.manoeuvres import SineWithDwell as SineWithDwell
     from .analyses.manoeuvres import Step as Step
+    from .analyses.margins import margins as margins
     from .analyses.modes import modes as modes
     from .analyses.pitching import moment_line as moment_line
     from .analyses.pitching import static_margin as static_margin
@@ -54,11 +63,13 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.steady import axle_loads as axle_loads
     from .analyses.steady import steady_turn as steady_turn
     from .analyses.steady_family import steady_family as steady_family
+    from .analyses.stream import stream as stream
     from .analyses.sweep import sweep as sweep
     from .analyses.tire_curves import cornering_coefficient as cornering_coefficient
     from .analyses.tire_curves import tire_curves as tire_curves
     from .analyses.transfer import transfer as transfer
     from .analyses.trim import trim as trim
+    from .analyses.uncertainty import uncertainty as uncertainty
     from .analyses.verdict import verdict as verdict
     from .catalogue import find_model as find_model
     from .catalogue import load as load
@@ -81,6 +92,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .plots import animate as animate
     from .plots import plot as plot
     from .report import write_report as write_report
+    from .web.serve import app as app
 
 __version__ = "0.1.0"
 
@@ -115,9 +127,13 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "approximation": "analyses.approximation",
     "audit": "analyses.audit",
     "axle_loads": "analyses.steady",
+    "certify": "analyses.certify",
+    "basin": "analyses.basin",
     "cornering_coefficient": "analyses.tire_curves",
     "boundary": "analyses.boundary",
+    "cite": "analyses.cite",
     "compare": "analyses.compare",
+    "cycles": ("analyses.cycles", "limit_cycles"),
     "frequency_response": "analyses.response",
     "impulse_response": "analyses.response",
     "step_response": "analyses.response",
@@ -126,15 +142,20 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "SecondOrder": "analyses.forms",
     "StateSpace": "analyses.forms",
     "forms": "analyses.forms",
+    "lazy": "analyses.lazy",
     "handling": ("analyses.handling", "handling_diagram"),
     "handling_diagram": "analyses.handling",
     "limit": "analyses.limits",
+    "limit_cycles": "analyses.cycles",
     "moment_line": "analyses.pitching",
     "static_margin": "analyses.pitching",
     "dwell_criteria": "analyses.dwell",
     "rollover": "analyses.rollover",
     "routh": "analyses.routh",
     "simulate": "analyses.simulate",
+    "margins": "analyses.margins",
+    "simulate_delayed": "analyses.delays",
+    "describe_controller": "analyses.laws",
     "Step": "analyses.manoeuvres",
     "Ramp": "analyses.manoeuvres",
     "Sine": "analyses.manoeuvres",
@@ -147,7 +168,9 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "steady_turn": "analyses.steady",
     "tire_curves": "analyses.tire_curves",
     "transfer": "analyses.transfer",
+    "stream": "analyses.stream",
     "trim": "analyses.trim",
+    "uncertainty": "analyses.uncertainty",
     "bonds": "analyses.bonds",
     "power_flow": "analyses.bonds",
     "show": "analyses.show",
@@ -159,6 +182,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "plot": "plots",
     "stable_matrices": "numerics.matrices",
     "write_report": "report",
+    "app": "web.serve",
 }
 """Public names, and the module that has each, with its name there where it is another."""
 

@@ -149,6 +149,45 @@ def tire(name: str, **parameters: Any) -> Any:
     return find_part(name, kind)(**parameters)
 
 
+def read_vehicle(text: str, where: str, changes: Mapping[str, Any] | None = None) -> Model:
+    """Return the vehicle that the text of a vehicle file describes, reading nothing else from the disk.
+
+    Models, laws and tires of the catalogue only: whoever wrote the text need not be who owns the machine.
+
+    Parameters
+    ----------
+    text
+        Content of a vehicle file (TOML).
+    where
+        Name of the text, for messages.
+    changes
+        Parameter values [SI, or text with a unit] that replace those of the text.
+
+    Raises
+    ------
+    UcritError
+        If the text is wrong, or names a Python file or a tire property file.
+
+    Examples
+    --------
+    >>> read_vehicle('model = "/home/me/mine.py"\\n[parameters]', "pasted text")
+    Traceback (most recent call last):
+    ucrit.core.errors.UcritError: pasted text: '/home/me/mine.py' is a file; name a model of the catalogue here
+    """
+
+    def model(name: str) -> type[Model]:
+        if ".py" in name:
+            raise UcritError(f"'{name}' is a file; name a model of the catalogue here")
+        return find_model(name)
+
+    def part(name: str, kind: type[Part]) -> type[Part]:
+        if ".tir" in name.lower():
+            raise UcritError(f"'{name}' is a file; name a law or a tire of the catalogue here")
+        return find_part(name, kind)
+
+    return parse_vehicle(text, where, Find(model, part, controlled), changes)
+
+
 def _laws(kind: type[Part]) -> dict[str, type[Part]]:
     """Find the laws of a kind: the module of its base, and the modules beside it in its package."""
     package = importlib.import_module(kind.__module__.rpartition(".")[0])
@@ -182,12 +221,36 @@ def find_controller(name: str) -> type[Controller]:
 
 
 def controlled(model: type[Model], controllers: tuple[str, ...]) -> type[Model]:
-    """Return a model under the control of controllers of the catalogue."""
+    """Return a model under the control of controllers: names of the catalogue, or makers with arguments.
+
+    Makers are those of `ucrit.control.MAKERS`: ``"lag(delta_f)"``, ``"state-feedback(delta_f, delta_r)"``. Each is made
+    for the model and the controllers before it.
+    """
     if not controllers:
         return model
     from .control import closed
 
-    return closed(model, *map(find_controller, controllers))
+    for name in controllers:
+        model = closed(model, _controller(name, model))
+    return model
+
+
+def _controller(name: str, model: type[Model]) -> type[Controller]:
+    """Return a controller by name, or the one that a maker makes for a model."""
+    maker, bracket, rest = name.partition("(")
+    if not bracket:
+        return find_controller(name)
+    from .control import MAKERS
+
+    key = maker.strip().replace("_", "-")
+    if key not in MAKERS or not rest.rstrip().endswith(")"):
+        known = ", ".join(f"{each}(...)" for each in MAKERS)
+        raise UcritError(f"there is no controller '{name}'{near_match(key, MAKERS)}; made for a model are {known}")
+    arguments = [word.strip() for word in rest.rstrip()[:-1].split(",") if word.strip()]
+    try:
+        return MAKERS[key](model, *arguments)
+    except TypeError:
+        raise UcritError(f"controller '{name}': {len(arguments)} arguments are not what {key} takes") from None
 
 
 def models_in(module: ModuleType) -> list[type[Model]]:

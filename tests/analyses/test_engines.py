@@ -49,14 +49,15 @@ def around(vehicle, names, sizes, low=0.3, high=3.0):
         ("caravan", ("U", "m", "c")),
         ("shimmying-caster", ("U", "k")),
         ("chain", ("k", "c")),
-        ("satellite-largest-axis", ("I_1", "I_2")),
+        ("satellite-largest-axis", ("I_zz", "Omega")),
         ("boeing-747", ("U",)),
     ],
 )
 def test_engines_agree(name, names):
     vehicle = Chain(m=1, k=1, c=0.1, f=0.3) if name == "chain" else load(name)
     names = [n for n in names if n in vehicle.values] or list(vehicle.values)[:2]
-    grid = around(vehicle, names, (37, 23, 5)[: len(names)])
+    narrow = {"low": 1.0, "high": 1.5} if hasattr(vehicle, "possible") else {}
+    grid = around(vehicle, names, (37, 23, 5)[: len(names)], **narrow)
     numpy = stability_map(vehicle, engine="numpy", **grid)
     numba = stability_map(vehicle, engine="numba", **grid)
     np.testing.assert_array_equal(numpy.stable, numba.stable)

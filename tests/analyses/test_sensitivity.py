@@ -37,7 +37,8 @@ def exact_slopes(vehicle, parameter):
         return np.array([complex(s) for s in roots]), np.array([complex(x) for x in changes])
 
 
-@pytest.mark.parametrize("name", vehicle_names())
+# The wheels of the four-wheel car share an eigenvalue: slopes of double roots do not exist.
+@pytest.mark.parametrize("name", [name for name in vehicle_names() if name != "four-wheel-car"])
 def test_slopes_of_all_eigenvalues_of_all_vehicles(name):
     vehicle = load(name)
     found = sensitivity(vehicle)

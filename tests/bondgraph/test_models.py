@@ -165,7 +165,8 @@ def test_a_model_of_a_graph_has_every_analysis():
 
         locals().update(find_model("trailer").declaration.parameters)
         bond_graph = find_model("trailer").bond_graph
-        tire = find_model("trailer").tire
+        tire_bonds = find_model("trailer").tire_bonds
+        tire_force = find_model("trailer").tire_force
 
     caravan = load("caravan")
     swaying = Swaying(**caravan.values)

@@ -51,6 +51,10 @@ def test_a_sheet_is_written_as_it_was_read():
 @pytest.mark.parametrize("name", stating())
 def test_graphs_of_the_catalogue_are_read_back(name):
     graph = graph_of(find_model(name))
+    if find_model(name).declaration.slots:
+        with pytest.raises(ModelError, match="the text form has no name for Piecewise"):
+            write_graph(graph)
+        return
     laws = [x for element in graph.elements if element.law for x in element.law.expressions]
     names = {symbol.name: symbol for x in laws for symbol in x.free_symbols}
     assert read_graph(write_graph(graph), names) == graph

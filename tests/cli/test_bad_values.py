@@ -43,7 +43,8 @@ def test_bad_value_in_a_file(name: str, key: str, run: Run, tmp_path: Path) -> N
         path = write(tmp_path / "bad.toml", name, {**sample(model), key: value})
         result = run("analyze", path, "--report", tmp_path / "out.html")
         shown = str(value) if not isinstance(value, float) else f"{value:g}"
-        refused(result, tmp_path, f"{parameter.meaning} {key}", shown.split()[-1] if shown else "''")
+        named = "there is no entry" if isinstance(value, dict) else shown.split()[-1] if shown else "''"
+        refused(result, tmp_path, f"{parameter.meaning} {key}", named)
         if isinstance(value, float) and abs(value) < 1e9:
             refused(result, tmp_path, parameter.allowed)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import socket
 from collections.abc import Callable
 from pathlib import Path
 
@@ -160,6 +161,10 @@ def test_examples_in_the_help_run(run: Run, tmp_path: Path, monkeypatch: pytest.
     monkeypatch.chdir(tmp_path)
     (tmp_path / "my_model.py").write_text(OWN_MODEL)
     Path("mine.toml").write_text(run("new", "caravan").stdout)
+    monkeypatch.setattr("uvicorn.Server.run", lambda *_, **__: None)  # the explorer would wait for visitors
+    monkeypatch.setattr("webbrowser.open", lambda _: True)
+    monkeypatch.setattr("ucrit.web.serve.listen", lambda *_: socket.create_server(("127.0.0.1", 0)))
+
     Path("mine.bonds").write_text(run("bonds", "oscillator", "--text").stdout)
     tried = 0
     for name in COMMANDS:

@@ -61,7 +61,7 @@ def test_json_holds_the_analyses_and_the_differences(run: Run) -> None:
 
 def test_own_file(run: Run, tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
-    path.write_text(run("new", "caravan").stdout.replace("m = 1200", "m = 1400"))
+    path.write_text(re.sub(r"(?m)^m = .*$", "m = 1400", run("new", "caravan").stdout, count=1))
     text = run("compare", "caravan", path).stdout
     assert re.search(r"^m \[kg\] +1200 +1400$", text, re.MULTILINE)
 

@@ -30,7 +30,7 @@ def test_writes_a_table(run: Run, tmp_path: Path) -> None:
 def test_refuses(run: Run) -> None:
     for arguments, message in (
         (("handling", "caravan"), "a handling diagram needs an output a_y"),
-        (("handling", "spinning-car", "--out", "x.doc"), "must end in .png"),
+        (("handling", "spinning-car", "--out", "x.doc"), "must end in .csv"),
         (("handling", "spinning-car", "--slip", "3 kg"), "slip"),
         (("handling", "spining-car"), "did you mean 'spinning-car'"),
     ):

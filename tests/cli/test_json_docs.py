@@ -76,7 +76,7 @@ def test_show_and_list_have_the_documented_entries(run: Run) -> None:
     }
     assert set(json.loads(run("show", "caravan", "--json").stdout)) == documented
     listed = json.loads(run("list", "--json").stdout)
-    assert set(listed) == {"schema", "models", "vehicles"}
+    assert set(listed) == {"schema", "models", "vehicles", "controllers"}
     assert set(listed["models"][0]) == {"name", "title", "model"}
 
 

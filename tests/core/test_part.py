@@ -98,3 +98,9 @@ def test_slopes_of_the_motion_are_those_of_differences():
     for i, (name, step) in enumerate(steps.items()):
         up, down = (rates(**{name: SLEDGE.values[name] + s}) for s in (step, -step))
         np.testing.assert_allclose(slopes.E[:, 0, i], (up - down) / (2 * step), rtol=1e-5, atol=1e-9)
+
+
+def test_equations_are_shown_with_the_forces_as_functions():
+    (equation,) = ucrit.show(Sledge).equations
+    assert "F_y_tire(W, atan(V/U) - delta)" in str(equation)
+    assert "tire_mu" not in str(equation)

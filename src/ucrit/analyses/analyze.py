@@ -104,9 +104,9 @@ class Analysis:
         return f"{self.vehicle.info.name or type(self.vehicle).__name__}: {self.sentence}"
 
     def _repr_html_(self) -> str:
-        from html import escape
+        from . import notebook
 
-        return f"<p><b>{escape(self.vehicle.info.name)}</b>: {escape(self.sentence)}</p>"
+        return notebook.analysis(self)
 
 
 def analyze(
@@ -115,6 +115,7 @@ def analyze(
     changes: Mapping[str, Any] | None = None,
     *,
     audit: bool = False,
+    advise: bool = True,
 ) -> Analysis:
     """Judge a vehicle up to a speed: verdict, modes, critical speeds, criteria and remedies.
 
@@ -128,6 +129,8 @@ def analyze(
         Parameter values that replace the vehicle's.
     audit
         Whether the verdict at the asked speed is checked by the non-linear equations too, see `audit`.
+    advise
+        Whether remedies are sought, which takes longer than all the rest; without them there are none in the result.
 
     Raises
     ------
@@ -159,7 +162,7 @@ def analyze(
         criteria=found_criteria,
         why_no_criteria=why,
         failing=found_criteria.failing(subject) if found_criteria else (),
-        remedies=() if stable else remedies(subject),
+        remedies=remedies(subject) if advise and not stable else (),
         audit=_audit(subject) if audit else None,
     )
 

@@ -5,12 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..core.errors import UcritError
+from ..core.html import Rich
 from ..core.model import Model
 from .modes import Mode, modes
 
 
 @dataclass(frozen=True)
-class ModeError:
+class ModeError(Rich):
     """A mode as the full and as the simple model have it."""
 
     full: Mode
@@ -39,7 +40,7 @@ class ModeError:
 
 
 @dataclass(frozen=True)
-class Approximation:
+class Approximation(Rich):
     """Errors of a simple model, mode by mode.
 
     Attributes

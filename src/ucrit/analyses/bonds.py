@@ -15,6 +15,7 @@ from ..bondgraph.graph import Graph
 from ..bondgraph.model import BondGraphModel, graph_of, input_symbols, states_bond_graph
 from ..catalogue import BONDS, find_model, model_from_file, model_names
 from ..core.errors import UcritError, near_match
+from ..core.html import Rich
 from ..core.model import Model
 from .simulation import Simulation
 
@@ -41,7 +42,7 @@ class BondRow:
 
 
 @dataclass(frozen=True)
-class Bonds:
+class Bonds(Rich):
     """What `bonds` finds.
 
     Attributes

@@ -92,14 +92,10 @@ class Comparison:
         return "\n".join(lines)
 
     def _repr_html_(self) -> str:
-        from html import escape
+        from ..core import html
 
-        head = "".join(f'<th scope="col">{escape(s.name)}</th>' for s in self.subjects)
-        body = "".join(
-            f'<tr><th scope="row">{escape(label)}</th>' + "".join(f"<td>{escape(t)}</td>" for t in texts) + "</tr>"
-            for label, texts in self.rows()
-        )
-        return f"<table><tr><td></td>{head}</tr>{body}</table>"
+        rows = [(label, *texts) for label, texts in self.rows()]
+        return html.table(rows, ["", *(s.name for s in self.subjects)])
 
 
 def compare(*vehicles: Model) -> Comparison:

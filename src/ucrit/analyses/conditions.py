@@ -14,7 +14,7 @@ from ..core.errors import UcritError
 from ..core.factor import definite_sign, factors, readable, readable_ratio
 from ..core.linear import CharacteristicPolynomial
 from ..numerics.determinants import hurwitz_matrix
-from .implied import implied
+from .implied import excluded, implied
 
 MAX_PRODUCTS = 10**5
 """Products that expanding a determinant may take; more of them give a condition that nobody can read."""
@@ -44,7 +44,8 @@ def conditions(polynomial: CharacteristicPolynomial, parameters: Sequence[Any], 
     Returns
     -------
     dict
-        ``conditions``, ``kind``, ``settled``, ``zeros`` and ``order`` as `ucrit.analyses.criteria.Criteria` has them.
+        ``conditions``, ``conflict``, ``kind``, ``settled``, ``zeros`` and ``order``, as
+        `ucrit.analyses.criteria.Criteria` has them.
     """
     a = list(polynomial.coefficients[polynomial.zeros :])
     even = len(a) > 1 and not any(a[1::2])
@@ -63,8 +64,13 @@ def conditions(polynomial: CharacteristicPolynomial, parameters: Sequence[Any], 
         others = [poly for _, poly in found if poly is not pair[1]]
         if implied(pair[1], others) or _square_of_others(pair[1], others):
             found.remove(pair)
+    conflict = excluded([poly for _, poly in found])
+    if conflict:
+        settled, against = False, [found[i][0]["expression"] for i in conflict]
+        found = []
     return {
         "conditions": [condition for condition, _ in found],
+        "conflict": against if conflict else [],
         "kind": "neutral" if even or len(a) == 1 else "asymptotic",
         "settled": None if found else settled,
         "zeros": polynomial.zeros,
@@ -207,7 +213,7 @@ def _boundaries(factor: PolyElement, functions: Any) -> list[dict[str, Any]]:
     found, ring = [], factor.ring
     for i, generator in enumerate(ring.symbols):
         powers = {m[i] for m in factor.itermonoms()}
-        if generator in functions or any(f.has(generator) for f in functions.values()):
+        if not generator.is_Symbol or generator in functions or any(f.has(generator) for f in functions.values()):
             continue
         if powers in ({0, 1}, {0, 2}):
             power = max(powers)

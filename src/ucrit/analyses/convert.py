@@ -64,7 +64,7 @@ class Table:
             spread = [name for name in series.dims if name not in self.rows]
             values = series.values.transpose([series.dims.index(name) for name in (*rows, *spread)])
             full = [coords[name].values.size if name in rows else 1 for name in self.rows]
-            values = values.reshape(*full, *values.shape[len(rows) :])
+            values = values.reshape((*full, *values.shape[len(rows) :]))
             for place in np.ndindex(*values.shape[len(shape) :]):
                 at = [str(coords[name].values[i]) for name, i in zip(spread, place, strict=True)]
                 column = np.broadcast_to(values[(*[slice(None)] * len(shape), *place)], shape)
@@ -88,6 +88,11 @@ class Tabular:
     def table(self) -> Table:
         """Return the result as named arrays with units."""
         raise NotImplementedError
+
+    def _repr_html_(self) -> str:
+        from . import notebook
+
+        return notebook.tabular(self)
 
     def to_dataframe(self) -> Any:
         """Return a flat `pandas.DataFrame`; units are in ``.attrs["units"]``.

@@ -82,6 +82,11 @@ class Criterion:
     def __str__(self) -> str:
         return f"{self.expression} > 0"
 
+    def _repr_html_(self) -> str:
+        from ..core.html import math_of
+
+        return f"<p>{math_of(self.mathml, '> 0')}</p>"
+
     def _repr_latex_(self) -> str:
         return f"$\\displaystyle {self.latex} > 0$"
 
@@ -102,6 +107,8 @@ class Criteria:
         Number of roots that are zero whatever the parameters; they were divided out.
     order
         Degree of the characteristic polynomial without these.
+    conflict
+        Where it is ``False`` because two conditions cannot both hold: their left-hand sides.
     """
 
     model: str
@@ -110,13 +117,21 @@ class Criteria:
     settled: bool | None
     zeros: int
     order: int
+    conflict: tuple[str, ...] = ()
 
     def __str__(self) -> str:
         word = "stable" if self.kind == "asymptotic" else "neutrally stable"
         if self.settled is not None:
-            return f"{self.model}: {word if self.settled else 'unstable'} for all allowed parameters"
+            needs = " and ".join(f"{expression} > 0" for expression in self.conflict)
+            why = f": it needs {needs}, which cannot both hold" if needs else ""
+            return f"{self.model}: {word if self.settled else 'unstable'} for all allowed parameters{why}"
         lines = [f"{self.model}: {word} if and only if"]
         return "\n".join([*lines, *(f"    {condition}" for condition in self.conditions)])
+
+    def _repr_html_(self) -> str:
+        from . import notebook
+
+        return notebook.criteria(self)
 
     def _repr_latex_(self) -> str:
         return r"$\displaystyle " + r" \quad\wedge\quad ".join(f"{c.latex} > 0" for c in self.conditions) + "$"
@@ -186,7 +201,8 @@ def criteria(
         )
         for c in facts["conditions"]
     )
-    return Criteria(cls.model_id(), conditions, facts["kind"], facts["settled"], facts["zeros"], facts["order"])
+    plain = facts["kind"], facts["settled"], facts["zeros"], facts["order"]
+    return Criteria(cls.model_id(), conditions, *plain, tuple(facts.get("conflict", ())))
 
 
 def _short_hash(text: str) -> str:

@@ -67,6 +67,11 @@ class Critical:
         kind = "root through infinity" if self.kind == "order" else self.kind
         return f"{value}: {kind} of the {self.mode}{at}, stable {self.stable}"
 
+    def _repr_html_(self) -> str:
+        from . import notebook
+
+        return notebook.critical([self])
+
 
 @dataclass(frozen=True)
 class CriticalValues(Tabular):
@@ -118,7 +123,9 @@ class CriticalValues(Tabular):
         return "\n".join(map(str, self.values)) or f"no critical value of {self.parameter} in the range"
 
     def _repr_html_(self) -> str:
-        return "<ul>" + "".join(f"<li>{c}</li>" for c in self.values) + "</ul>" if self.values else str(self)
+        from . import notebook
+
+        return notebook.critical_values(self)
 
 
 def critical(

@@ -16,13 +16,14 @@ import numpy as np
 import numpy.typing as npt
 
 from ..core.errors import UcritError
+from ..core.html import Rich
 from ..core.model import Model
 
 Array = npt.NDArray[Any]
 
 
 @dataclass(frozen=True)
-class LinearForm:
+class LinearForm(Rich):
     """What all forms share: entries are exact, numbers taken as the decimals they print, symbols allowed."""
 
     title: ClassVar[str]
@@ -222,7 +223,7 @@ class Descriptor(LinearForm):
 
 
 @dataclass(frozen=True)
-class Forms:
+class Forms(Rich):
     """The linear equations of one vehicle or model in four forms."""
 
     nth_order: NthOrder

@@ -13,7 +13,7 @@ from ..core.derive import symbolic
 from ..core.factor import factored
 from ..core.linear import LinearSystem
 from ..core.model import Model
-from ..core.trace import Traced
+from ..core.trace import Traced, stated
 
 LONGER = 2
 """An equation this many times longer multiplied out is left as stated: collecting may take minutes, and never won."""
@@ -25,7 +25,7 @@ def derive(model: type[Model], sense: int) -> dict[str, Any]:
     system = symbolic(model, sense)
     functions = dict(system.polynomial.functions)
     return {
-        "equations": [_motion(_tidied(r, system.traced), system.traced) for r in system.traced.residuals],
+        "equations": [_motion(_tidied(r, system.traced), system.traced) for r in stated(system.traced)],
         "unknowns": [chain[0].name for chain in system.traced.q],
         "P": [_matrix(M) for M in _matrices(system)],
         "Q": _matrix(system.Q),

@@ -122,6 +122,11 @@ class LimitResult:
         why = str(self.criteria) if self.criteria else too_long
         return "\n".join([*lines, *(why.splitlines() if self.order else [])])
 
+    def _repr_html_(self) -> str:
+        from . import notebook
+
+        return notebook.limit(self)
+
     def _repr_latex_(self) -> str:
         return rf"$\displaystyle {self.latex} = 0$"
 

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+import inspect
 import os
 import re
 import tomllib
 from dataclasses import dataclass
 
-from ..catalogue import VEHICLES, find_model, model_names, vehicle_names
+from ..catalogue import VEHICLES, controller_names, find_controller, find_model, model_names, vehicle_names
 from ..core.errors import UcritError, near_match
 from ..core.files import read_text, vehicle_template, write_vehicle
 from ..core.model import Model
 from .show import resolve
 
-KINDS = ("models", "vehicles")
+KINDS = ("models", "vehicles", "controllers")
 
 
 @dataclass(frozen=True)
@@ -27,7 +28,7 @@ class Entry:
 
 @dataclass(frozen=True)
 class Listing:
-    """Models and vehicles that are shipped; prints as a list.
+    """Models, vehicles and controllers that are shipped; prints as a list.
 
     Examples
     --------
@@ -38,17 +39,22 @@ class Listing:
 
     models: tuple[Entry, ...]
     vehicles: tuple[Entry, ...]
+    controllers: tuple[Entry, ...] = ()
+
+    @property
+    def _all(self) -> tuple[Entry, ...]:
+        return (*self.models, *self.vehicles, *self.controllers)
 
     def __contains__(self, name: object) -> bool:
-        return any(entry.name == name for entry in (*self.models, *self.vehicles))
+        return any(entry.name == name for entry in self._all)
 
     def __len__(self) -> int:
-        return len(self.models) + len(self.vehicles)
+        return len(self._all)
 
     def __str__(self) -> str:
-        width = max((len(entry.name) for entry in (*self.models, *self.vehicles)), default=0)
+        width = max((len(entry.name) for entry in self._all), default=0)
         lines = []
-        for head, entries in (("models", self.models), ("vehicles", self.vehicles)):
+        for head, entries in zip(KINDS, (self.models, self.vehicles, self.controllers), strict=True):
             if entries:
                 lines += [head, *(f"  {e.name:<{width}}  {e.title}" for e in entries)]
         return "\n".join(lines)
@@ -56,27 +62,35 @@ class Listing:
     __repr__ = __str__
 
     def _repr_html_(self) -> str:
-        from html import escape
+        from ..core import html
 
-        rows = "".join(
-            f"<tr><td><code>{e.name}</code></td><td>{escape(e.title)}</td><td>{e.model}</td></tr>"
-            for e in (*self.models, *self.vehicles)
-        )
-        return f"<table>{rows}</table>"
+        return html.table([(e.name, e.title, e.model) for e in self._all], ("name", "what it is", "model"))
 
 
 def listing(kind: str | None = None) -> Listing:
-    """Return what is shipped: all of it, or only ``"models"`` or ``"vehicles"``.
+    """Return what is shipped: all of it, or only ``"models"``, ``"vehicles"`` or ``"controllers"``.
 
     Raises `UcritError` for any other kind.
     """
     if kind is not None and kind not in KINDS:
         raise UcritError(f"there are no '{kind}' to list{near_match(kind, KINDS)}")
-    models = () if kind == "vehicles" else tuple(_model(name) for name in model_names())
-    vehicles = (
-        () if kind == "models" else tuple(sorted(map(_vehicle, vehicle_names()), key=lambda e: (e.model, e.name)))
-    )
-    return Listing(models, vehicles)
+    wanted = KINDS if kind is None else (kind,)
+    models = tuple(_model(name) for name in model_names()) if "models" in wanted else ()
+    vehicles = sorted(map(_vehicle, vehicle_names()), key=lambda e: (e.model, e.name)) if "vehicles" in wanted else ()
+    controllers = (*map(_controller, controller_names()), *_makers()) if "controllers" in wanted else ()
+    return Listing(models, tuple(vehicles), controllers)
+
+
+def _makers() -> list[Entry]:
+    """Controllers that are made for a model, with arguments."""
+    from ..control import MAKERS
+
+    lines = {name: (inspect.getdoc(maker) or "").splitlines()[0] for name, maker in MAKERS.items()}
+    return [Entry(f"{name}(...)", line.removeprefix("Return ").replace("`", "")) for name, line in lines.items()]
+
+
+def _controller(name: str) -> Entry:
+    return Entry(name, re.sub(r"\s*\(.*?\)\.?$", "", find_controller(name).title()))
 
 
 def _model(name: str) -> Entry:

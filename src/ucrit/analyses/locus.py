@@ -87,6 +87,7 @@ def locus(
     lower: float | None = None,
     upper: float | None = None,
     points: int = 400,
+    depth: int = 8,
 ) -> Locus:
     """Follow every eigenvalue of a vehicle along one parameter.
 
@@ -101,6 +102,8 @@ def locus(
         larger (critical values beyond ten times the present one aside), and starts at a hundredth of that.
     points
         Even steps to begin with; where eigenvalues move fast some are halved, up to six times.
+    depth
+        Times that a step is halved in which it is in doubt which eigenvalue goes where. Fewer are faster.
 
     Returns
     -------
@@ -125,28 +128,30 @@ def locus(
         raise UcritError(f"a root locus is that of one vehicle: give one value each for {', '.join(vehicle.dims)}")
     if isinstance(points, bool) or not isinstance(points, int) or points < 2:
         raise UcritError(f"a root locus needs 2 points or more, got {points!r}")
+    if isinstance(depth, bool) or not isinstance(depth, int) or not 0 <= depth <= 50:
+        raise UcritError(f"depth must be a whole number from 0 to 50, got {depth!r}")
     lo, hi = _range(vehicle, name, lower, upper)
     now = float(vehicle.values[name])
     reference = min(max(now, lo), hi)
     few = min(points, TRACKED)
     grid = _refined(vehicle, name, np.unique(np.append(np.linspace(lo, hi, few), reference)), 8 * few)
-    result = _tracked(vehicle, name, grid, reference)
+    result = _tracked(vehicle, name, grid, reference, depth)
     if points <= few:
         return result
     more = np.unique(np.append(np.linspace(lo, hi, points), grid))
     branches = dense_branches(vehicle, name, more, grid, result.branches)
     if branches is None:
-        return _tracked(vehicle, name, _refined(vehicle, name, more, 8 * points), reference)
+        return _tracked(vehicle, name, _refined(vehicle, name, more, 8 * points), reference, depth)
     return replace(result, values=more, branches=branches)
 
 
-def _tracked(vehicle: Model, name: str, grid: Array, reference: float) -> Locus:
+def _tracked(vehicle: Model, name: str, grid: Array, reference: float, depth: int) -> Locus:
     """Follow the eigenvalues over a grid that holds the reference."""
 
     def family(values: Array) -> tuple[Array, Array]:
         return eigensystem(vehicle.with_(**{name: values}))
 
-    tracked = track_adaptive(family, grid)
+    tracked = track_adaptive(family, grid, max_depth=depth)
     here = int(np.argmin(np.abs(grid - reference)))
     branches = tracked.branches[:, np.argsort(tracked.permutation[here])]
     named = modes(vehicle.with_(**{name: reference})).names

@@ -108,7 +108,7 @@ class Step(Shape):
     >>> car = load("understeering-car")
     >>> turned = simulate(car, 3, inputs={"delta_f": Step("1 deg", at=1)}, times=[0.5, 3])
     >>> [round(float(r), 4) for r in turned["r"]]
-    [0.0, 0.1029]
+    [0.0, 0.0911]
     """
 
     size: Value

@@ -66,6 +66,11 @@ class Mode:
         """Time [s] in which a growing mode doubles, ``inf`` for one that does not grow."""
         return math.log(2) / self.eigenvalue.real if self.eigenvalue.real > 0 else math.inf
 
+    def _repr_html_(self) -> str:
+        from . import notebook
+
+        return notebook.mode(self)
+
 
 @dataclass(frozen=True)
 class Modes(Tabular):
@@ -182,18 +187,19 @@ class Modes(Tabular):
         return growth(self.vehicle, self.eigenvalues)
 
     def __str__(self) -> str:
+        if self.eigenvalues.ndim != 1:
+            shape = ", ".join(f"{name}: {values.size}" for name, values in self.vehicle.dims.items())
+            return f"{self.eigenvalues.shape[-1]} modes at each of {shape}"
         return "\n".join(
             f"{mode.name:<24} {mode.eigenvalue.real:+.6g}{mode.eigenvalue.imag:+.6g}j" for mode in self.list()
         )
 
     def _repr_html_(self) -> str:
-        rows = "".join(
-            f"<tr><td>{mode.name}</td><td>{mode.eigenvalue:.6g}</td><td>{mode.frequency_hz:.4g}</td>"
-            f"<td>{mode.damping_ratio:.4g}</td></tr>"
-            for mode in self.list()
-        )
-        head = "<tr><th>mode</th><th>eigenvalue [1/s]</th><th>frequency [Hz]</th><th>damping ratio</th></tr>"
-        return f"<table>{head}{rows}</table>"
+        from . import notebook
+
+        if self.eigenvalues.ndim != 1:
+            return super()._repr_html_()
+        return notebook.modes(self.list(), f"Modes: {notebook.name_of(self.vehicle)}")
 
 
 def modes(vehicle: Model) -> Modes:

@@ -15,8 +15,10 @@ import numpy.typing as npt
 from ..core.cache import cached
 from ..core.compiled import labels, state_space
 from ..core.errors import UcritError, near_match
+from ..core.html import Rich
 from ..core.model import Model
 from ..core.motion import motion
+from .convert import Series, Table, Tabular
 
 Array = npt.NDArray[Any]
 
@@ -28,7 +30,7 @@ DOWNWARD = ("w", "W")
 
 
 @dataclass(frozen=True)
-class StaticMargin:
+class StaticMargin(Rich):
     """How an airplane's moment answers a change of lift; array parameters make arrays.
 
     Attributes
@@ -77,7 +79,7 @@ class StaticMargin:
 
 
 @dataclass(frozen=True)
-class MomentLine:
+class MomentLine(Tabular):
     """Moment against lift at one setting of the controls for each row.
 
     Attributes
@@ -112,6 +114,22 @@ class MomentLine:
     def slope(self) -> Array:
         """Change of moment per change of lift from end to end, shape (k,): negative if statically stable."""
         return np.asarray((self.moment[:, -1] - self.moment[:, 0]) / (self.lift[:, -1] - self.lift[:, 0]))
+
+    def table(self) -> Table:
+        """Return lift and moment of every line, by setting and point."""
+        declared = type(self.vehicle).declaration
+        (lift, moment), _ = _needed(type(self.vehicle))
+        rows = (self.input or "line", "point")
+        settings = self.settings if self.input else np.arange(1, len(self.lift) + 1)
+        coords = (
+            Series(rows[0], rows[:1], settings, declared.inputs[self.input].unit if self.input else "1"),
+            Series("point", rows[1:], np.arange(1, self.lift.shape[1] + 1), "1"),
+        )
+        data = (
+            Series(lift, rows, self.lift, declared.outputs[lift].unit),
+            Series(moment, rows, self.moment, declared.outputs[moment].unit),
+        )
+        return Table("moment against lift", self.vehicle, coords, data, rows)
 
 
 def static_margin(vehicle: Model) -> StaticMargin:

@@ -64,8 +64,27 @@ class Remedy:
         unit = "" if self.unit == "1" else f" {self.unit}"
         return f"{self.parameter}: {word} {self.value:.6g}{unit} instead of {self.present:.6g}{share}"
 
+    def _repr_html_(self) -> str:
+        from . import notebook
 
-def remedies(vehicle: Model, upto: float | None = None, since: float = 0.0) -> tuple[Remedy, ...]:
+        return notebook.remedies([self])
+
+
+class Remedies(tuple[Remedy, ...]):
+    """The remedies for one vehicle: a tuple that a notebook shows as a table."""
+
+    __slots__ = ()
+
+    def __str__(self) -> str:
+        return "\n".join(map(str, self)) or "nothing to remedy"
+
+    def _repr_html_(self) -> str:
+        from . import notebook
+
+        return notebook.remedies(self)
+
+
+def remedies(vehicle: Model, upto: float | None = None, since: float = 0.0) -> Remedies:
     """Find, for each parameter, the smallest change of it alone that makes the vehicle stable at all speeds up to one.
 
     Parameters
@@ -79,8 +98,9 @@ def remedies(vehicle: Model, upto: float | None = None, since: float = 0.0) -> t
 
     Returns
     -------
-    tuple of Remedy
-        The smallest relative change first; parameters that cannot help last. Empty if the vehicle is stable already.
+    Remedies
+        A tuple of `Remedy`. The smallest relative change first; parameters that cannot help last. Empty if the vehicle
+        is stable already.
         Without a speed, stability at the one operating point is meant.
 
     Notes
@@ -95,9 +115,9 @@ def remedies(vehicle: Model, upto: float | None = None, since: float = 0.0) -> t
     name = declared.speed
     speeds = None if name is None else _speeds(vehicle, name, upto, since)
     if _stable(vehicle, speeds):
-        return ()
+        return Remedies()
     found = [_remedy(vehicle, key, speeds) for key in declared.parameters if key != name]
-    return tuple(sorted(found, key=lambda r: (r.value is None, abs(r.relative))))
+    return Remedies(sorted(found, key=lambda r: (r.value is None, abs(r.relative))))
 
 
 def _speeds(vehicle: Model, name: str, upto: float | None, since: float) -> Array:

@@ -10,7 +10,7 @@ import numpy.typing as npt
 
 from ..core.errors import UcritError, near_match
 from ..core.model import Model
-from .convert import Series, Table, Tabular, complex_series, unit_of
+from .convert import Series, Table, Tabular, complex_series, needed, unit_of
 
 Array = npt.NDArray[Any]
 
@@ -87,6 +87,26 @@ class FrequencyResponse(_Response):
         gain = self.gain(output)
         at = gain.argmax(axis=-1)
         return self.frequencies[at], np.take_along_axis(gain, at[..., None], axis=-1)[..., 0]
+
+    def to_control(self) -> Any:
+        """Return a `control.FrequencyResponseData` over angular frequencies, input and outputs named.
+
+        Raises
+        ------
+        UcritError
+            If a parameter of the vehicle is an array.
+        MissingExtraError
+            If python-control is not installed.
+        """
+        if self.vehicle.dims:
+            arrays = ", ".join(self.vehicle.dims)
+            raise UcritError(
+                f"a frequency response to hand over is that of one vehicle: give one value each for {arrays}"
+            )
+        control = needed("control", "control", "a frequency response there")
+        values = np.moveaxis(self.values, -1, 0)[:, None, :]
+        omega = 2 * np.pi * self.frequencies
+        return control.frd(values, omega, inputs=[self.input], outputs=list(self.outputs))
 
     @property
     def _axis(self) -> Series:

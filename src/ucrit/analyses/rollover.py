@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from ..core.errors import UcritError
+from ..core.html import Rich
 from ..core.model import Model
 from .handling_words import acceleration
 from .steady import GRAVITY
@@ -23,7 +24,7 @@ SMALL = 1e-3
 
 
 @dataclass(frozen=True)
-class Rollover:
+class Rollover(Rich):
     """When a car rolls over in a steady turn.
 
     Attributes

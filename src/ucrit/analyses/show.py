@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from ..catalogue import BONDS, PUBLISHED, find_model, load, model_names, vehicle_names
+from ..catalogue import BONDS, PUBLISHED, controller_names, find_model, load, model_names, vehicle_names
 from ..core.cache import cached
 from ..core.compiled import direction
 from ..core.declare import Input, Output, Parameter, Variable
@@ -124,17 +124,14 @@ class ModelDescription:
         return "\n".join([*lines, "", *(f"{f} = 0" for f in self.equations)])
 
     def _repr_html_(self) -> str:
-        from html import escape
+        from ..core import html
 
-        rows = "".join(
-            f"<tr><td><code>{p.name}</code></td><td>{escape(p.unit)}</td><td>{escape(p.meaning)}</td>"
-            f"<td>{escape(p.allowed)}</td></tr>"
-            for p in self.parameters
-        )
+        rows = [(p.name, "" if p.unit == "1" else p.unit, p.meaning, p.allowed) for p in self.parameters]
+        table = html.table(rows, ("parameter", "unit", "meaning", "allowed"), self.title)
         equations = "".join(
             f'<p><math display="block"><mrow>{f.mathml}<mo>=</mo><mn>0</mn></mrow></math></p>' for f in self.equations
         )
-        return f"<b>{escape(self.title)}</b><table>{rows}</table>{equations}"
+        return table + equations
 
 
 def show(subject: type[Model] | Model | str | os.PathLike[str]) -> ModelDescription:
@@ -193,6 +190,8 @@ def resolve(subject: type[Model] | Model | str | os.PathLike[str]) -> tuple[type
     if name in vehicle_names() or name.endswith(".toml") or os.sep in name or os.path.isfile(name):
         vehicle = load(name)
         return type(vehicle), vehicle
+    if name.replace("_", "-") in controller_names():
+        raise UcritError(f"'{name}' is a controller: it can be shown alone, and judged with a vehicle")
     raise UcritError(f"there is no model or vehicle '{name}'{near_match(name, [*model_names(), *vehicle_names()])}")
 
 

@@ -100,7 +100,7 @@ class Simulation(Tabular):
         >>> from ucrit import load, simulate
         >>> fall = simulate(load("bowling-ball-on-a-thin-stick"), 1, {"theta": "1 deg"})
         >>> round(float(fall.at(0.5)["theta"][0]), 4)
-        0.0221
+        0.0219
         """
         if self.course is None or not self.course.stretches:
             raise UcritError("a batch is known at its times only: give simulate the times wanted")

@@ -75,6 +75,11 @@ class StabilityMap(Tabular):
             ]
         return Table("stability map", self.vehicle, coords, tuple(data), self.dims)
 
+    def _repr_html_(self) -> str:
+        from . import notebook
+
+        return notebook.stability_map(self)
+
 
 def stability_map(
     vehicle: Model, /, *, engine: str = "auto", margins: bool = False, **grid: Sequence[float] | Array | str

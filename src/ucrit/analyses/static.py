@@ -12,13 +12,17 @@ from dataclasses import dataclass
 from ..core.cache import cached
 from ..core.compiled import direction, labels, state_space
 from ..core.errors import UcritError, near_match
+from ..core.html import Rich
 from ..core.model import Model
 from .critical import critical
 from .verdict import verdict
 
+LONGEST = 600
+"""Operations in the equations up to which the answer is derived in symbols."""
+
 
 @dataclass(frozen=True)
-class StaticStability:
+class StaticStability(Rich):
     """What a vehicle does from rest in a displaced position.
 
     Attributes
@@ -131,8 +135,8 @@ def _answer(vehicle: Model, name: str, turning: str) -> tuple[str, float, bool]:
 
 
 def _derive(cls: type[Model], direction: int, name: str, turning: str) -> str:
-    """Solve the explicit equations for one highest derivative per unit of one state."""
-    from sympy import ZZ, Dummy
+    """Solve the explicit equations for one highest derivative per unit of one state; empty if too long to be read."""
+    from sympy import ZZ, Dummy, count_ops
     from sympy.polys.matrices import DomainMatrix
     from sympy.polys.rings import PolyRing
 
@@ -144,6 +148,8 @@ def _derive(cls: type[Model], direction: int, name: str, turning: str) -> str:
 
     system = symbolic(cls, direction)
     e = system.explicit
+    if sum(count_ops(entry) for entry in (*e.L, *e.R)) > LONGEST:
+        return ""
     variables = [chain[0].name for chain in system.traced.q]
     below = [v + "'" * k for v, order in zip(variables, e.orders, strict=True) for k in range(order)]
     n, column = e.L.rows, e.R[:, below.index(name)]

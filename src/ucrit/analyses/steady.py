@@ -19,6 +19,7 @@ import numpy.typing as npt
 from ..core.cache import cached
 from ..core.codegen import build
 from ..core.errors import UcritError
+from ..core.html import Rich
 from ..core.model import Model
 
 Array = npt.NDArray[Any]
@@ -31,7 +32,7 @@ NEUTRAL = 1e-12
 
 
 @dataclass(frozen=True)
-class SteadyTurn:
+class SteadyTurn(Rich):
     """How a car turns steadily, for small slip and steer angles; array parameters make arrays.
 
     Attributes
@@ -109,7 +110,7 @@ class SteadyTurn:
         return _plain(self._over(U) / R)
 
     def yaw_rate_gain(self, speed: Any) -> Any:
-        """Return yaw rate per steer angle [(rad/s)/rad] at speeds [m/s], shape (..., *speed.shape)."""
+        """Return yaw rate per steer angle [(rad/s)/rad] at speeds [m/s], shape ``(..., *speed.shape)``."""
         U = np.asarray(speed, dtype=float)
         with np.errstate(divide="ignore"):
             return _plain(U / self._over(U))

@@ -40,6 +40,11 @@ class Verdict:
         """Whether nothing grows and all that does not decay are rigid positions."""
         return self.growing == 0 and self.marginal == 0
 
+    def _repr_html_(self) -> str:
+        from . import notebook
+
+        return notebook.verdict(self)
+
     def __str__(self) -> str:
         if self.growing:
             how = "statically" if self.static == "unstable" else "dynamically"

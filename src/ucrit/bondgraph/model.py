@@ -140,7 +140,7 @@ def graph_of(model: type[Model], direction: int | None = 1) -> Graph:
 
 def states_bond_graph(model: type[Model]) -> bool:
     """Tell whether a model states a bond graph of its own motion, not only a base class one of another motion."""
-    return hasattr(model, "bond_graph") and (
+    return getattr(model, "bond_graph", None) is not None and (
         issubclass(model, BondGraphModel)
         or any(is_current(model, method) for method in ("bond_graph", "equations_bond_graph"))
     )

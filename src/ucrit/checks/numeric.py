@@ -14,7 +14,7 @@ from .states import differs
 from .subject import Subject
 
 COUNT = 32
-STEP = 1e-3
+STEP = 1e-4
 
 
 def functions(subject: Subject) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from ..core.errors import ModelError
+from ..core.html import Rich
 
 MARKS = {True: "pass", False: "FAIL", None: "  - "}
 
@@ -30,7 +31,7 @@ class Check:
 
 
 @dataclass(frozen=True)
-class Report:
+class Report(Rich):
     """Outcome of all checks of one model, in the order they ran.
 
     Examples

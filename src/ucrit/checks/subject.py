@@ -67,7 +67,10 @@ class Subject:
     @property
     def derivations(self) -> list[str]:
         """Names of the methods that derive the equations again."""
-        return sorted(name for name in dir(self.model) if name.startswith("equations_") and self.is_current(name))
+        found = (
+            name for name in dir(self.model) if name.startswith("equations_") and callable(getattr(self.model, name))
+        )
+        return sorted(name for name in found if self.is_current(name))
 
     def is_current(self, method: str) -> bool:
         """Tell whether a method is no older in the line of classes than the statement of motion in use."""

@@ -20,12 +20,18 @@ COMMANDS = {
     "new": "new",
     "simulate": "simulate",
     "sweep": "sweep",
+    "cycles": "cycles",
     "handling": "handling",
     "boundary": "boundary",
+    "margins": "margins",
+    "uncertainty": "uncertainty",
+    "certify": "certify",
     "routh": "routh",
     "bonds": "bonds",
     "tire": "tire",
     "check": "check",
+    "cite": "cite",
+    "app": "app",
     "completion": "completion",
 }
 """Commands in the order of the help, and the modules that hold them."""
@@ -98,6 +104,7 @@ def cli(ctx: click.Context) -> None:
       ucrit analyze caravan --upto "130 km/h"   judge one of the vehicles
       ucrit new trailer > mine.toml             a vehicle file to fill in
       ucrit analyze mine.toml                   judge your own
+      ucrit app caravan                         move its parameters in the browser
 
     \b
     Units:  a number is in SI units (m, kg, s, N, rad); anything else carries its

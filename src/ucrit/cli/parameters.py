@@ -24,6 +24,8 @@ class Name(click.ParamType):  # type: ignore[type-arg]
         names: list[str] = []
         names += catalogue.vehicle_names() if "vehicle" in self.kinds else ()
         names += catalogue.model_names() if "model" in self.kinds else ()
+        names += catalogue.controller_names() if "controller" in self.kinds else ()
+
         names += catalogue.tire_names() if "tire" in self.kinds else ()
         found = [CompletionItem(name) for name in names if name.startswith(incomplete)]
         return [*found, *(CompletionItem(path) for path in _files(incomplete, self.suffix))]

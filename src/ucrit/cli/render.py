@@ -154,11 +154,14 @@ def _remedies(page: Page, found: Analysis) -> None:
         page.heading("Remedies: none needed")
         return
     helping = [r for r in found.remedies if r.value is not None]
+    in_part = found.speed is not None and found.verdict.stable
     if helping:
-        page.heading("Remedies, each enough alone, the smallest change first")
+        aim = " for all lower speeds too" if in_part else ""
+        page.heading(f"Remedies, each enough alone{aim}, the smallest change first")
         page.table([_remedy_cells(r, found) for r in helping], right=(2, 5))
     else:
-        page.heading("Remedies: no parameter alone makes it stable")
+        aim = " at all lower speeds too" if in_part else ""
+        page.heading(f"Remedies: no parameter alone makes it stable{aim}")
     useless = [r.parameter for r in found.remedies if r.value is None]
     if useless:
         page.paragraph(f"no value helps: {', '.join(useless)}", "dim", indent=2, hanging=2)

@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
+    from ..analyses.cite import Citations
+    from ..analyses.laws import ControllerDescription
     from ..analyses.listing import Entry, Listing
     from ..analyses.show import Matrix, ModelDescription
     from ..checks import Report
@@ -33,6 +35,11 @@ def show_listing(console: Console, found: Listing) -> None:
         for model in dict.fromkeys(e.model for e in found.vehicles):
             page.line(f"  {model}")
             _entries(page, [e for e in found.vehicles if e.model == model], _widest(found.vehicles), indent=4)
+    if found.controllers:
+        if found.models or found.vehicles:
+            page.line()
+        page.line(("Controllers", "bold"), ("   ucrit show NAME: the law", "dim"))
+        _entries(page, found.controllers, _widest(found.controllers))
 
 
 def _widest(entries: Sequence[Entry]) -> int:
@@ -43,6 +50,18 @@ def _entries(page: Page, entries: Sequence[Entry], width: int, indent: int = 2) 
     for e in entries:
         lead = " " * indent + f"{e.name:<{width}}  "
         page.line((lead, "cyan"), shorten(e.title, page.width - len(lead)))
+
+
+def show_citations(console: Console, found: Citations) -> None:
+    """Print sources under what rests on them, then the works that they name."""
+    page = Page(console)
+    for of in dict.fromkeys(c.of for c in found):
+        page.line((of[:1].upper() + of[1:], "bold"))
+        for source in (c.source for c in found if c.of == of):
+            page.paragraph(source, indent=2, hanging=2)
+    page.line(("Works", "bold"), ("   --bibtex prints them for a bibliography", "dim"))
+    for work in found.works:
+        page.paragraph(str(work), indent=2, hanging=2)
 
 
 def show_model(console: Console, found: ModelDescription) -> None:
@@ -69,6 +88,32 @@ def show_model(console: Console, found: ModelDescription) -> None:
         page.heading("Compared with")
         for source in found.sources:
             page.paragraph(source, indent=2, hanging=2)
+
+
+def show_controller(console: Console, found: ControllerDescription) -> None:
+    """Print everything about a controller."""
+    page = Page(console)
+    page.paragraph(found.controller, "bold")
+    page.paragraph(found.title)
+    if found.notes:
+        page.line()
+        page.paragraph(found.notes)
+    groups = (
+        ("Parameters", found.parameters),
+        ("States", found.variables),
+        ("Inputs", found.inputs),
+        ("Outputs", found.outputs),
+    )
+    for head, group in groups:
+        if group:
+            page.heading(head)
+            page.table([[q.name, _unit(q.unit), q.meaning] for q in group])
+    demands = ", which stays an input: what is demanded" if found.through else ""
+    page.heading(f"Drives {', '.join(found.drives)}{demands}")
+    for name, text in found.law.items():
+        page.formula(f"{name} = {text}", indent=2)
+    for equation in found.equations:
+        page.formula(f"{equation} = 0", indent=2)
 
 
 def _unit(unit: str) -> str:

@@ -31,9 +31,15 @@ class Controller(Model):
     ...         return {"delta_f": -self.G * x.r}
     >>> close(load("bmw-320i"), YawDamper, G=0.1).G
     0.1
+
+    A class with ``through = True`` leaves the inputs that it drives to be prescribed from outside, as demands:
+    ``u.delta_f`` is then what is demanded, what the law returns reaches the vehicle, and is its output
+    ``delta_f_actual``. Actuators and laws that add to the driver's steering are of this kind. A class that drives
+    nothing must have states or outputs: an observer.
     """
 
     drives: ClassVar[tuple[str, ...]] = ()
+    through: ClassVar[bool] = False
     _arguments = MappingProxyType({**ARGUMENTS, "law": SEEN, "equations": SEEN, "outputs": SEEN})
 
     @classmethod

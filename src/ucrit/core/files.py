@@ -9,6 +9,8 @@
     [parameters]
     m = 1400             # a number is in the parameter's SI unit
     U = "100 km/h"       # a text carries its own
+
+Tolerances stand beside values, see `ucrit.core.tolerances`.
 """
 
 from __future__ import annotations
@@ -21,9 +23,10 @@ from typing import Any, NamedTuple
 from .errors import UcritError, near_match
 from .model import Model
 from .part import Part
+from .tolerances import read_tolerances, write_correlations
 
 TEXTS = ("name", "source", "note")
-KEYS = ("model", *TEXTS, "controllers", "parts", "parameters")
+KEYS = ("model", *TEXTS, "controllers", "parts", "parameters", "correlations")
 
 
 class Find(NamedTuple):
@@ -102,11 +105,12 @@ def parse_vehicle(
         model = find.model(content["model"])
         model = model.fitted(**_laws(model, content.get("parts", {}), find.part))
         model = find.controlled(model, _controllers(content.get("controllers", [])))
+        parameters, tolerances = read_tolerances(parameters, content.get("correlations", {}), model)
         vehicle = model(**{**parameters, **(changes or {}), **_speed(model, at_speed)})
     except UcritError as error:
         raise type(error)(f"{where}: {error}") from None
     texts = {key: content[key] for key in TEXTS if key in content}
-    return vehicle.with_info(**{"name": Path(where).stem, **texts, "file": where})
+    return vehicle.with_info(**{"name": Path(where).stem, **texts, "file": where, "tolerances": tolerances})
 
 
 def _controllers(names: Any) -> tuple[str, ...]:
@@ -164,8 +168,12 @@ def vehicle_template(model: type[Model], name: str | None = None, vehicle: Model
     for key, parameter in model.declaration.parameters.items():
         comment = f"{parameter.meaning} [{parameter.unit}], {parameter.allowed}"
         value = vehicle.values[key] if vehicle else parameter.default
-        left = f"{key} = {float(value)!r}" if value is not None else f"# {key} = "
+        tolerance = info.tolerances.of(key) if info else None
+        left = f"# {key} = "
+        if value is not None:
+            left = f"{key} = {tolerance.entry(float(value)) if tolerance else repr(float(value))}"
         lines.append(f"{left:<28} # {comment}")
+    lines += write_correlations(info.tolerances) if info else []
     return "\n".join(lines) + "\n"
 
 

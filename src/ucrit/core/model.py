@@ -32,6 +32,7 @@ from .errors import ModelError, UcritError, near_match
 from .made import made, reference, resolve
 from .part import Part, Slot
 from .possible import check_together
+from .tolerances import Tolerances
 
 ARGUMENTS = {
     "equations": ("x", "dx", "ddx", "u"),
@@ -81,12 +82,13 @@ class Declaration:
 
 @dataclass(frozen=True)
 class Info:
-    """Who a vehicle is: its name, where its numbers come from, the file it was read from, a remark."""
+    """Who a vehicle is: its name, where its numbers come from, the file it was read from, a remark, tolerances."""
 
     name: str = ""
     source: str = ""
     file: str = ""
     note: str = ""
+    tolerances: Tolerances = Tolerances()
 
 
 @dataclass_transform(kw_only_default=True, frozen_default=True, field_specifiers=(param, speed))
@@ -241,8 +243,8 @@ class Model:
         copy.__dict__["info"] = self.info
         return copy
 
-    def with_info(self, **info: str) -> Self:
-        """Return a copy with another name, source, file or note."""
+    def with_info(self, **info: Any) -> Self:
+        """Return a copy with another name, source, file, note or tolerances."""
         copy = self.with_()
         copy.__dict__["info"] = replace(self.info, **info)
         return copy
@@ -252,14 +254,12 @@ class Model:
         return f"{type(self).__name__}({values})"
 
     def _repr_html_(self) -> str:
-        from html import escape
+        from . import html
 
-        rows = "".join(
-            f"<tr><td><code>{name}</code></td><td>{_short(self._values[name])}</td>"
-            f"<td>{'' if p.unit == '1' else escape(p.unit)}</td><td>{escape(p.meaning)}</td></tr>"
-            for name, p in type(self).declaration.parameters.items()
-        )
-        return f"<b>{escape(self.info.name or type(self).__name__)}</b><table>{rows}</table>"
+        declared = type(self).declaration.parameters.items()
+        rows = [(name, _short(self._values[name]), "" if p.unit == "1" else p.unit, p.meaning) for name, p in declared]
+        caption = f"{self.info.name or type(self).__name__} ({type(self).model_id()})"
+        return html.table(rows, ("parameter", "value", "unit", "meaning"), caption)
 
 
 def _with_laws(cls: type[Model], laws: tuple[tuple[str, type[Part]], ...]) -> type[Model]:

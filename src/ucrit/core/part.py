@@ -91,6 +91,11 @@ class Part:
         return found
 
     @classmethod
+    def unwritten(cls, slot: str) -> type[Part]:
+        """Return the law as equations show it that do not spell it out; ``slot`` is where it is, for the names."""
+        return cls
+
+    @classmethod
     def bound(cls, values: Mapping[str, Any]) -> Self:
         """Return a part whose parameters are any values, symbols among them, past the validation of numbers."""
         instance = object.__new__(cls)

@@ -14,6 +14,7 @@ from sympy.polys.constructor import construct_domain
 from sympy.polys.rings import PolyElement, PolyRing
 
 from .declare import Parameter
+from .errors import ModelError
 from .grouped import Group
 
 MAX_TRIGSIMP = 400
@@ -88,6 +89,8 @@ def cleared_row(entries: Row, domain: Any, ring: PolyRing, s: PolyElement) -> li
 def integer_fraction(element: Any, domain: Any, ring: PolyRing) -> tuple[PolyElement, PolyElement]:
     """Return numerator and denominator of a field element in a ring with one symbol more and integer coefficients."""
     if not domain.is_Composite:
+        if not hasattr(element, "numerator"):
+            raise ModelError("the equations hold terms that are no ratio of polynomials, which this analysis needs")
         return ring(int(element.numerator)), ring(int(element.denominator))
     num, content_n = element.numer.clear_denoms()[::-1]
     den, content_d = element.denom.clear_denoms()[::-1]

@@ -121,6 +121,18 @@ def trace(model: type[Model], direction: int | None = 1, method: str = "") -> Tr
     return traced
 
 
+def stated(traced: Traced) -> tuple[Expr, ...]:
+    """Return a model's residuals as they are written: with the forces of its parts as functions, not spelt out."""
+    model = traced.model
+    laws = {name: slot.law.unwritten(name) for name, slot in model.declaration.slots.items()}
+    if not laws:
+        return traced.residuals
+    instance = symbolic_instance(model.fitted(**laws), traced.parameters)
+    q = list(traced.q[: len(traced.q) - traced.multipliers])
+    residuals, _ = _residuals(type(instance), instance, groups_of(model, q, traced.u), q, "")
+    return tuple(_rational(r) for r in residuals)
+
+
 def groups_of(model: type[Model], q: list[tuple[sp.Symbol, ...]], u: tuple[sp.Symbol, ...]) -> dict[str, Names]:
     """Return the symbols of a model's variables, rates and inputs, as its methods take them."""
     names = list(model.declaration.variables)

@@ -135,3 +135,21 @@ def _registry() -> Any:
     import pint
 
     return pint.UnitRegistry()
+
+
+def exact_si(text: str, unit: str, thing: str) -> Fraction:
+    """Return what a text says in the coherent SI ``unit``, exactly; other units than common ones round to a double.
+
+    Raises `UcritError` naming ``thing`` when the text is no quantity or has another dimension.
+
+    >>> exact_si("0.1", "m", "length"), exact_si("90 km/h", "m/s", "speed")
+    (Fraction(1, 10), Fraction(25, 1))
+    """
+    rounded = to_si(text, unit, thing)
+    match = _TEXT.match(text)
+    if match is None or not math.isfinite(rounded):
+        raise UcritError(f"{thing} must be a finite number, if need be with a unit such as '{unit}', got {text!r}")
+    coherent, factor = (unit, "1") if match[2] in ("", unit) else COMMON.get(match[2], ("", ""))
+    if coherent != unit or abs(rounded) < 1e-99:  # tiny numbers may have a billion digits
+        return Fraction(rounded)
+    return Fraction(match[1]) * Fraction(factor)

@@ -5,7 +5,8 @@ Everything is of first order in roll and steer. A force or rate of momentum coun
 that the wheels allow: roll, and steer with the yaw that keeps the front contact on its course.
 """
 
-from ..core import Model, coordinate, cos, param, sin, speed
+from ..core import Drawing, Model, coordinate, cos, param, sin, speed
+from ..parts.shapes import leaning
 
 
 class Bicycle(Model):
@@ -76,3 +77,6 @@ class Bicycle(Model):
             roll -= force * (u * x.delta - depth * x.phi)
             steer -= force * u * (x.phi + S * x.delta)
         return roll, steer
+
+    def drawing(self, x):
+        return Drawing("rear", leaning(-self.z_B, x.phi))

@@ -4,7 +4,8 @@ Two tires carry each axle and share its load, which does not change: the car has
 the contact points to the wheels' planes; steer angles are positive to the right.
 """
 
-from ..core import Model, cos, input, output, param, slot, speed, state
+from ..core import Drawing, Model, cos, input, output, param, slot, speed, state
+from ..parts.shapes import car
 from ..parts.tires import slip_angle
 from ..parts.tires.brush import Brush
 
@@ -70,3 +71,6 @@ class CarHandling(Model):
             "alpha_f": front,
             "alpha_r": rear,
         }
+
+    def drawing(self, x, u):
+        return Drawing("top", car(self.a, self.b, u.delta_f, u.delta_r), turned=True, travel=(self.U, x.V, x.r))

@@ -33,7 +33,7 @@ class CasterFlexibleSidewall(Caster):
             dx.z - self.deflection_rate(x, dx),
         )
 
-    def tire(self, at, along):
+    def tire_bonds(self, at, along):
         def side_force(v):
             return linear_side_force(self.C, slip_angle(v, along))
 

@@ -37,10 +37,16 @@ class Trailer(Model):
         longitudinal = self.U * cos(x.theta) - dx.x * sin(x.theta)
         return lateral, longitudinal
 
+    def tire_force(self, alpha):
+        return linear_side_force(self.C, alpha)
+
+    def side_force(self, x, dx):
+        return self.tire_force(slip_angle(*self.axle_velocity(x, dx)))
+
     def forces(self, x, dx):
-        lateral, longitudinal = self.axle_velocity(x, dx)
+        lateral, _ = self.axle_velocity(x, dx)
         return (
-            (linear_side_force(self.C, slip_angle(lateral, longitudinal)), lateral),
+            (self.side_force(x, dx), lateral),
             (-self.c * dx.theta, dx.theta),
         )
 
@@ -57,17 +63,16 @@ class Trailer(Model):
             R("damper", self.c),
             "theta -> damper",
             running_gear.velocity("axle", road=sin(theta), x=cos(theta), theta=self.a + self.b),
-            self.tire("axle", f("road") * cos(theta) - f("x") * sin(theta)),
+            self.tire_bonds("axle", f("road") * cos(theta) - f("x") * sin(theta)),
         )
 
-    def tire(self, at, along):
-        return running_gear.tire(at, lambda v: linear_side_force(self.C, slip_angle(v, along)))
+    def tire_bonds(self, at, along):
+        return running_gear.tire(at, lambda v: self.tire_force(slip_angle(v, along)))
 
     equations_bond_graph = equations_bond_graph
 
     def equations_newton(self, x, dx, ddx):
-        lateral, longitudinal = self.axle_velocity(x, dx)
-        Y = linear_side_force(self.C, slip_angle(lateral, longitudinal))
+        Y = self.side_force(x, dx)
         acceleration = ddx.x + self.a * (ddx.theta * cos(x.theta) - dx.theta**2 * sin(x.theta))
         about_hitch = self.m * self.a * (self.a * ddx.theta + ddx.x * cos(x.theta))
         return (

@@ -29,10 +29,13 @@ class TrailerActiveSteering(Model):
     delta = output("rad", "steer angle of the wheels")
     offset = output("m", "lateral position of the axle to the line of the hitch's path")
 
-    def side_force(self, x):
+    def steer(self, x, u):
+        return self.g * x.r
+
+    def side_force(self, x, u):
         across = self.U * sin(x.theta) + (self.a + self.b) * x.r
         along = self.U * cos(x.theta)
-        delta = self.g * x.r
+        delta = self.steer(x, u)
         left, forward = across * cos(delta) + along * sin(delta), along * cos(delta) - across * sin(delta)
         return linear_side_force(self.C, slip_angle(left, forward)) * cos(delta)
 
@@ -41,11 +44,11 @@ class TrailerActiveSteering(Model):
         about_hitch = (self.I_c + self.m * self.a**2) * dx.r + self.m * self.a * hitch_acceleration
         return (
             dx.theta - (x.r - u.omega),
-            about_hitch - (self.a + self.b) * self.side_force(x),
+            about_hitch - (self.a + self.b) * self.side_force(x, u),
         )
 
     def equations_centre_of_mass(self, x, dx, u):
-        Y = self.side_force(x)
+        Y = self.side_force(x, u)
         acceleration = self.a * dx.r - self.U * u.omega * cos(x.theta)
         hitch_force = self.m * acceleration - Y
         return (
@@ -53,9 +56,9 @@ class TrailerActiveSteering(Model):
             self.I_c * dx.r - (self.b * Y - self.a * hitch_force),
         )
 
-    def outputs(self, x):
-        return {"delta": self.g * x.r, "offset": (self.a + self.b) * sin(x.theta)}
+    def outputs(self, x, u):
+        return {"delta": self.steer(x, u), "offset": (self.a + self.b) * sin(x.theta)}
 
     def drawing(self, x, u):
-        shape = trailer(self.a, self.b, angle=-x.theta, steer=-self.g * x.r)
+        shape = trailer(self.a, self.b, angle=-x.theta, steer=-self.steer(x, u))
         return Drawing("top", shape, travel=(self.U, 0, -u.omega))

@@ -40,10 +40,10 @@ class TrailerRigidHitch(Model):
             "speed -> road",
             bodies.swinging_body(self.m, self.I_c, self.a, ahead="road"),
             running_gear.velocity("axle", road=sin(q("theta")), theta=self.a + self.b),
-            self.tire("axle", f("road") * cos(q("theta"))),
+            self.tire_bonds("axle", f("road") * cos(q("theta"))),
         )
 
-    def tire(self, at, along):
+    def tire_bonds(self, at, along):
         return running_gear.tire(at, lambda v: linear_side_force(self.C, slip_angle(v, along)))
 
     equations_bond_graph = equations_bond_graph

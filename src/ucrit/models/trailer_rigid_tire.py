@@ -17,7 +17,7 @@ class TrailerRigidTire(Trailer):
     def forces(self, x, dx):
         return ((-self.c * dx.theta, dx.theta),)
 
-    def tire(self, at, along):
+    def tire_bonds(self, at, along):
         return Graph(Sf("grip", 0), f"{at} -> grip")
 
     equations_bond_graph = equations_bond_graph

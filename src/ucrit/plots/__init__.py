@@ -9,6 +9,7 @@ from __future__ import annotations
 from .animation import animate, draw_frame
 from .bond_graph import plot_bond_graph
 from .boundary import plot_boundary
+from .cycles import plot_cycles
 from .damping import plot_damping
 from .dispatch import plot
 from .family import plot_family
@@ -22,6 +23,7 @@ from .remedies import plot_remedies
 from .root_locus import plot_locus
 from .stability_map import plot_map
 from .tire import plot_tire
+from .uncertainty import plot_uncertainty
 
 __all__ = [
     "animate",
@@ -29,6 +31,7 @@ __all__ = [
     "plot",
     "plot_bond_graph",
     "plot_boundary",
+    "plot_cycles",
     "plot_damping",
     "plot_family",
     "plot_handling",
@@ -41,4 +44,5 @@ __all__ = [
     "plot_remedies",
     "plot_simulation",
     "plot_tire",
+    "plot_uncertainty",
 ]

@@ -97,8 +97,15 @@ if (!matchMedia("(prefers-reduced-motion: reduce)").matches) play(true);
 """
 
 
-def page(scene: Scene) -> str:
-    """Return a scene as the text of an HTML page."""
+def film(scene: Scene) -> dict[str, Any]:
+    """Return a scene as plain data that a script can show: windows, outlines and times, rounded to what can be seen.
+
+    >>> from ucrit import load, modes
+    >>> from ucrit.analyses.scene import mode_scene
+    >>> caravan = load("caravan")
+    >>> len(film(mode_scene(caravan, modes(caravan).list()[0]))["times"])
+    121
+    """
     from .camera import frame_rate
 
     seen = camera(scene)
@@ -108,7 +115,7 @@ def page(scene: Scene) -> str:
     def rounded(points: Any) -> Any:
         return [[round(float(x), digits), round(float(-y), digits)] for x, y in points]
 
-    film = {
+    return {
         "times": [round(float(t), 4) for t in scene.times],
         "seconds": (len(scene.times) - 1) / frame_rate(scene.times),
         "width": seen.width,
@@ -121,6 +128,11 @@ def page(scene: Scene) -> str:
             for o in scene.outlines
         ],
     }
+
+
+def page(scene: Scene) -> str:
+    """Return a scene as the text of an HTML page."""
+    shown = film(scene)
     looks = "\n".join(
         f".{name} {{ fill: {look['fill']}; stroke: {look['line']}; stroke-width: {2.5 if name == 'wheel' else 1.5}; }}"
         for name, look in LOOKS.items()
@@ -128,11 +140,11 @@ def page(scene: Scene) -> str:
     fields = {
         "caption": escape(caption(scene)),
         "looks": looks + "\npolyline { fill: none !important; }",
-        "width": f"{seen.width:.6g}",
-        "height": f"{seen.height:.6g}",
-        "grid": f"{seen.grid:g}",
+        "width": f"{shown['width']:.6g}",
+        "height": f"{shown['height']:.6g}",
+        "grid": f"{shown['grid']:g}",
         "last": str(len(scene.times) - 1),
-        "film": json.dumps(film, separators=(",", ":")).replace("</", "<\\/"),
+        "film": json.dumps(shown, separators=(",", ":")).replace("</", "<\\/"),
     }
     text = TEMPLATE
     for name, value in fields.items():

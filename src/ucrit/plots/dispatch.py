@@ -8,6 +8,7 @@ from typing import Any
 from ..core.errors import UcritError
 from .bond_graph import plot_bond_graph
 from .boundary import plot_boundary
+from .cycles import plot_cycles
 from .family import plot_family
 from .handling import plot_handling
 from .mode_shapes import plot_mode_shapes
@@ -17,6 +18,7 @@ from .overview import plot_overview
 from .remedies import plot_remedies
 from .stability_map import plot_map
 from .tire import plot_tire
+from .uncertainty import plot_uncertainty
 
 
 def _analysis(result: Any, *, figure: Any) -> Any:
@@ -45,6 +47,7 @@ DRAWN: dict[str, tuple[str, Callable[..., Any]]] = {
     "Bonds": ("bonds", _bonds),
     "Handling": ("handling_diagram", plot_handling),
     "SteadyFamily": ("steady_family", plot_family),
+    "LimitCycles": ("limit_cycles", plot_cycles),
     "Analysis": ("analyze", _analysis),
     "Locus": ("locus", _locus),
     "Modes": ("modes", _modes),
@@ -54,6 +57,7 @@ DRAWN: dict[str, tuple[str, Callable[..., Any]]] = {
     "StabilityBoundary": ("boundary", plot_boundary),
     "StabilityMap": ("stability_map", plot_map),
     "TireCurves": ("tire_curves", plot_tire),
+    "Uncertainty": ("uncertainty", plot_uncertainty),
 }
 """By the name of a result's class: what returns such results, and what draws them."""
 

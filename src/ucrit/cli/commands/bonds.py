@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from ..output import PICTURES, write_picture
 from ..parameters import Name
 
 
@@ -27,10 +28,13 @@ def command(subject: str, draw: str | None, as_text: bool) -> None:
     Exit status: 0 done; 2 wrong input.
     """
     from ...analyses.bonds import bonds
+    from ...core.errors import UcritError
 
+    if draw is not None and not draw.lower().endswith(PICTURES):
+        raise UcritError(f"a drawing is written to a file ending in {', '.join(PICTURES)}, got '{draw}'")
     found = bonds(subject)
     if draw is not None:
-        _draw(found, draw)
+        write_picture(found, draw)
     if as_text:
         click.echo(found.text, nl=False)
         return
@@ -38,15 +42,3 @@ def command(subject: str, draw: str | None, as_text: bool) -> None:
     from ..terminal import terminal
 
     show_bonds(terminal(), found, draw)
-
-
-def _draw(found: object, path: str) -> None:
-    from ...core.errors import UcritError
-    from ...plots import plot
-
-    if not path.lower().endswith((".svg", ".png", ".pdf")):
-        raise UcritError(f"a drawing is written to a file ending in .svg, .png or .pdf, got '{path}'")
-    try:
-        plot(found).savefig(path, dpi=200)
-    except OSError as error:
-        raise UcritError(f"the drawing '{path}' cannot be written: {error.strerror or error}") from None

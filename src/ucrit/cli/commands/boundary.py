@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import click
 
+from ..output import to_stdout, writer
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
-from .sweep import refuse_both, writer
-
-PICTURES = (".png", ".svg", ".pdf")
+from .sweep import refuse_both
 
 
 @click.command("boundary", short_help="Where stability changes over two or three parameters.")
@@ -54,22 +51,8 @@ def command(
     """
     from ...analyses.boundary import boundary
 
-    write = _picture(output) if output is not None and output.endswith(PICTURES) else writer(output, PICTURES)
+    write = to_stdout if output is None else writer(output)
     subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
     read = assignments(ranges, '"U=20:130 km/h"')
     refuse_both(read, assignments(changes, "a=1.9"))
     write(boundary(subject, tolerance=tolerance, **read))
-
-
-def _picture(path: str) -> Any:
-    def write(result: Any) -> None:
-        import io
-
-        from ...analyses.convert import write_whole
-        from ...plots import plot
-
-        buffer = io.BytesIO()
-        plot(result).savefig(buffer, format=path.rpartition(".")[2])
-        write_whole(path, buffer.getvalue())
-
-    return write

@@ -5,13 +5,13 @@ from __future__ import annotations
 import click
 
 
-@click.command("list", short_help="List the models and vehicles that are shipped.")
-@click.argument("kind", required=False, type=click.Choice(["models", "vehicles"]))
+@click.command("list", short_help="List the models, vehicles and controllers that are shipped.")
+@click.argument("kind", required=False, type=click.Choice(["models", "vehicles", "controllers"]))
 @click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
 def command(kind: str | None, as_json: bool) -> None:
-    """List the models and the vehicles that are shipped, one a line.
+    """List the models, the vehicles and the controllers that are shipped, one a line.
 
-    A model holds equations; a vehicle is a model with numbers, which can be analyzed.
+    A model holds equations; a vehicle is a model with numbers, which can be analyzed; a controller drives inputs.
 
     \b
     Examples:

@@ -8,32 +8,39 @@ from ..parameters import Name
 
 
 @click.command("show", short_help="Show the equations of a model, the numbers of a vehicle.")
-@click.argument("subject", metavar="MODEL_OR_VEHICLE", type=Name("model", "vehicle", suffix=".toml"))
+@click.argument("subject", metavar="NAME", type=Name("model", "vehicle", "controller", suffix=".toml"))
 @click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
 def command(subject: str, as_json: bool) -> None:
     """Show parameters, variables, equations of motion, linear matrices, criteria and sources.
 
-    MODEL_OR_VEHICLE is a name from 'ucrit list', a vehicle file or a Python file with a model. The formulas
-    can be pasted into Python; x' is the rate of x.
+    NAME is one from 'ucrit list', of a model, a vehicle or a controller; or a vehicle file or a Python file with a
+    model. The formulas can be pasted into Python; x' is the rate of x.
 
     \b
     Examples:
       ucrit show car
       ucrit show caravan
+      ucrit show lean-by-front-steering
       ucrit show my_model.py
       ucrit show my_model.py:Caster --json
 
     Exit status: 0 done; 2 wrong input.
     """
+    from ...analyses.laws import describe_controller
     from ...analyses.show import show
+    from ...catalogue import controller_names
 
-    found = show(subject)
+    found = describe_controller(subject) if subject.replace("_", "-") in controller_names() else show(subject)
     if as_json:
         import json
 
         click.echo(json.dumps(found.to_dict(), indent=2, allow_nan=False, ensure_ascii=False))
         return
-    from ..render_model import show_model
+    from ...analyses.show import ModelDescription
+    from ..render_model import show_controller, show_model
     from ..terminal import terminal
 
-    show_model(terminal(), found)
+    if isinstance(found, ModelDescription):
+        show_model(terminal(), found)
+    else:
+        show_controller(terminal(), found)

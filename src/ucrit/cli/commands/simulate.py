@@ -6,14 +6,13 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..output import writer
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 from ..progress import progress
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-TABLES = {".csv": "to_csv", ".nc": "to_netcdf", ".json": "to_json", ".mat": "to_mat"}
-PICTURES = (".png", ".svg", ".pdf")
 FILMS = (".gif", ".mp4", ".html")
 
 
@@ -114,20 +113,11 @@ def command(
 
 def _writer(path: str, enlarge: float) -> Callable[[Any], None]:
     """Return what writes a result; a file ending that is not known is refused before anything is computed."""
-    from ...core.errors import UcritError
-
-    known = (*TABLES, *PICTURES, *FILMS)
-    ending = path[path.rfind(".") :].lower() if "." in path else ""
-    if ending not in known:
-        raise UcritError(f"the output '{path}' must end in {', '.join(known)}")
-    if ending in TABLES:
-        return lambda result: getattr(result, TABLES[ending])(path)
-    if ending in FILMS:
+    if path.lower().endswith(FILMS):
         from ...plots.animation import film_format
 
         film_format(path)
-        return lambda result: _film(result, path, enlarge)
-    return lambda result: _picture(result, path, ending)
+    return writer(path, more=dict.fromkeys(FILMS, lambda result: _film(result, path, enlarge)))
 
 
 def _film(result: Any, path: str, enlarge: float) -> None:
@@ -135,14 +125,3 @@ def _film(result: Any, path: str, enlarge: float) -> None:
 
     with progress("animate") as advance:
         animate(result, path, enlarge=enlarge, progress=advance)
-
-
-def _picture(result: Any, path: str, ending: str) -> None:
-    import io
-
-    from ...analyses.convert import write_whole
-    from ...plots import plot
-
-    content = io.BytesIO()
-    plot(result).savefig(content, format=ending[1:], dpi=150)
-    write_whole(path, content.getvalue())

@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import sys
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import click
 
+from ..output import to_stdout, writer
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 from ..progress import progress
 
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-FORMATS = {".csv": "to_csv", ".nc": "to_netcdf", ".json": "to_json", ".mat": "to_mat"}
+ZARR = ".zarr"
 
 
 @click.command("sweep", short_help="Stability over ranges of parameters, as a table.")
@@ -27,8 +24,13 @@ FORMATS = {".csv": "to_csv", ".nc": "to_netcdf", ".json": "to_json", ".mat": "to
     shell_complete=complete_parameters,
     help="Change a parameter that is not swept; may be repeated.",
 )
-@click.option("-o", "--output", metavar="FILE", help="Write .csv, .nc (netCDF), .json or .mat; else CSV on stdout.")
-def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], output: str | None) -> None:
+@click.option(
+    "-o", "--output", metavar="FILE", help="Write .csv, .nc (netCDF), .json, .mat or .zarr; else CSV on stdout."
+)
+@click.option("--scheduler", metavar="ADDRESS", help="Let the workers of this Dask scheduler compute (only to .zarr).")
+def command(
+    vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], output: str | None, scheduler: str | None
+) -> None:
     """Tabulate stability, growth, damping and eigenvalues for every combination of parameters.
 
     \b
@@ -43,18 +45,39 @@ def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], out
       ucrit sweep caravan "U=20:130:12 km/h"
       ucrit sweep caravan m=1000:1500:50 "U=10:130:60 km/h" -o caravan.nc
       ucrit sweep caravan a=1.5:4:26 --set "m=1.4 t" -o caravan.csv
+      ucrit sweep caravan m=800:2000:40 U=5:45:50 -o large.zarr
+
+    A Zarr store is written piece by piece, may be larger than memory, and is gone on with after an interruption.
 
     Exit status: 0 done; 2 wrong input, nothing is written then.
     """
     from ...analyses.sweep import sweep
 
-    write = writer(output)
+    if output is not None and output.endswith(ZARR):
+        _stream(vehicle, ranges, changes, output, scheduler)
+        return
+    if scheduler is not None:
+        raise click.UsageError("--scheduler needs a store that workers can write to: give -o FILE.zarr too")
+    write = to_stdout if output is None else writer(output, pictures=(), more={ZARR: to_stdout})
     subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
     read = assignments(ranges, '"U=20:130:12 km/h"')
     refuse_both(read, assignments(changes, "a=1.9"))
     with progress("sweep") as advance:
         result = sweep(subject, progress=advance, **read)
     write(result)
+
+
+def _stream(
+    vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], output: str, scheduler: str | None
+) -> None:
+    """Write a sweep to a Zarr store, piece by piece."""
+    from ...analyses.stream import stream
+
+    read = assignments(ranges, '"U=20:130:12 km/h"')
+    refuse_both(read, assignments(changes, "a=1.9"))
+    subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
+    with progress("sweep") as advance:
+        stream(subject, output, kind="sweep", client=scheduler, progress=advance, **read)
 
 
 def refuse_both(ranges: dict[str, Any], changes: dict[str, Any]) -> None:
@@ -64,24 +87,3 @@ def refuse_both(ranges: dict[str, Any], changes: dict[str, Any]) -> None:
     for name in ranges.keys() & changes.keys():
         given = f"as the range {ranges[name]!r} and as {changes[name]!r}"
         raise UcritError(f"parameter {name} is given twice, {given}")
-
-
-def writer(output: str | None, others: tuple[str, ...] = ()) -> Callable[[Any], None]:
-    """Return what writes a result; a file ending that is not known is refused before anything is computed."""
-    from ...core.errors import UcritError
-
-    if output is None:
-        return _to_stdout
-    ending = output[output.rfind(".") :] if "." in output else ""
-    if ending not in FORMATS:
-        raise UcritError(f"the output '{output}' must end in {', '.join((*FORMATS, *others))}")
-    return lambda result: getattr(result, FORMATS[ending])(output)
-
-
-def _to_stdout(result: Any) -> None:
-    import csv
-
-    columns = list(result.table().columns())
-    writer = csv.writer(sys.stdout, lineterminator="\n")
-    writer.writerow([f"{name} [{unit}]" if unit else name for name, unit, _ in columns])
-    writer.writerows(zip(*(values.tolist() for _, _, values in columns), strict=True))

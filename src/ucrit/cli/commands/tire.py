@@ -6,13 +6,11 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..output import writer
 from ..parameters import Name, assignments
 
 if TYPE_CHECKING:
     from ...analyses.tire_curves import TireCurves
-
-PICTURES = (".png", ".svg", ".pdf")
-ENDINGS = (".csv", ".json", ".mat", ".nc", *PICTURES)
 
 
 @click.command("tire", short_help="Show a tire: a property file (.tir) or a law with numbers.")
@@ -41,38 +39,18 @@ def command(
     """
     from ... import catalogue
     from ...analyses.tire_curves import LOADS, tire_curves
-    from ...core.errors import UcritError
     from ...core.units import to_si
 
-    if out is not None and not out.endswith(ENDINGS):
-        raise UcritError(f"the file's name must end in {', '.join(ENDINGS)}, got '{out}'")
+    write = None if out is None else writer(out)
     part = catalogue.tire(tire, **assignments(changes, 'mu=0.9 or "C=1 kN/deg"'))
     chosen = sorted(to_si(load, "N", "load") for load in loads) or list(LOADS)
     factors = assignments(roads, "ice=0.1")
     surfaces = {name: to_si(value, "1", f"friction factor of road {name}") for name, value in factors.items()} or None
     curves = tire_curves(part, chosen, surfaces)
     _show(curves, tire)
-    if out is not None:
-        _write(curves, out)
+    if write is not None:
+        write(curves)
         click.echo(f"\nThe curves are in {out}")
-
-
-def _write(curves: TireCurves, out: str) -> None:
-    from ...analyses.convert import write_whole
-
-    if out.endswith(PICTURES):
-        import io
-
-        from ...plots import plot_tire
-
-        picture = io.BytesIO()
-        plot_tire(curves).savefig(picture, format=out.rpartition(".")[2], dpi=135)
-        write_whole(out, picture.getvalue())
-    elif out.endswith(".nc"):
-        curves.to_xarray().to_netcdf(out)
-    else:
-        write: dict[str, Any] = {".csv": curves.to_csv, ".json": curves.to_json, ".mat": curves.to_mat}
-        write[out[out.rindex(".") :]](out)
 
 
 def _show(curves: TireCurves, name: str) -> None:

@@ -12,6 +12,7 @@ from __future__ import annotations
 from typing import Any, ClassVar, NamedTuple
 
 from ...core.errors import UcritError
+from ...core.made import made
 from ...core.part import Part
 
 
@@ -31,6 +32,11 @@ class Tire(Part):
     """
 
     friction: ClassVar[tuple[str, ...]] = ()
+
+    @classmethod
+    def unwritten(cls, slot: str) -> type[Part]:
+        """Return a tire whose forces are functions without a formula, such as ``F_y_front(F_z, alpha)``."""
+        return made(_unwritten, cls, slot)  # type: ignore[no-any-return]
 
     def forces(self, F_z: Any, alpha: Any, kappa: Any = 0, gamma: Any = 0) -> Forces:
         """Return the forces on the wheel."""
@@ -70,3 +76,13 @@ def axle_coefficient(tire: Tire, F_z: Any, transfer: Any) -> Any:
     section 4.II).
     """
     return tire.cornering_coefficient(F_z + transfer) + tire.cornering_coefficient(F_z - transfer)
+
+
+def _unwritten(law: type[Tire], slot: str) -> type[Tire]:
+    def forces(self: Any, F_z: Any, alpha: Any, kappa: Any = 0, gamma: Any = 0) -> Forces:
+        from sympy import Function
+
+        given = [F_z, alpha, *(slip for slip in (kappa, gamma) if slip != 0)]
+        return Forces(*(Function(f"{name}_{slot}", real=True)(*given) for name in Forces._fields))
+
+    return type(law.__name__, (law,), {"forces": forces, "side_force": Tire.side_force, "__module__": law.__module__})

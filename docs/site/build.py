@@ -1,0 +1,120 @@
+"""Build the pages in docs, the gallery and the reference: ``python docs/site/build.py [folder]``, ``make docs``.
+
+The pages are copied to a folder of their own, links between them adjusted, and the reference is written beside them
+from the declarations of models, vehicles, laws and commands. Sphinx does the rest; its warnings are errors.
+"""
+
+import argparse
+import re
+import shutil
+import sys
+from pathlib import Path
+
+import commands
+import interface
+
+import models
+
+ROOT = Path(__file__).resolve().parents[2]
+DOCS = ROOT / "docs"
+LINK = re.compile(r"(\]\()([^)\s]+)(\))")
+LANGUAGE = re.compile(r"^(`{3,})(\w+)$", re.MULTILINE)
+
+FIRST = ("readme", "add-a-vehicle", "measurements")
+"""Pages that stand first; the others follow by their names."""
+
+
+def write(path, text):
+    """Write a page if it is not there as it is: what has not changed is not read again."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    if not (path.is_file() and path.read_text(encoding="utf-8") == text):
+        path.write_text(text, encoding="utf-8")
+
+
+def moved(target):
+    """Return where a link leads in the built pages."""
+    if target.startswith(("http", "#")):
+        return target
+    path, sharp, anchor = target.partition("#")
+    name = path.removeprefix("../").removeprefix("docs/")
+    return {"README.md": "readme.md", "CHANGELOG.md": "changelog.md"}.get(name, name) + sharp + anchor
+
+
+def coloured(language):
+    """Return the name of a language, ``text`` for one that is not known."""
+    from pygments.lexers import get_lexer_by_name
+    from pygments.util import ClassNotFound
+
+    try:
+        get_lexer_by_name(language)
+    except ClassNotFound:
+        return "text"
+    return language
+
+
+def page(path):
+    """Return a page's text with its links adjusted, and no language that cannot be coloured."""
+    text = LANGUAGE.sub(lambda match: match[1] + coloured(match[2]), path.read_text(encoding="utf-8"))
+    return LINK.sub(lambda match: match[1] + moved(match[2]) + match[3], text)
+
+
+def index(names):
+    """Return the first page: the one that is written, and the lists that make the menu."""
+    chapters = [name for name in names if name.startswith("chapter-")]
+    rest = sorted(set(names) - set(chapters) - {*FIRST, "index", "changelog"})
+    menus = {
+        "Pages": [*(name for name in FIRST if name in names), *rest],
+        "Vehicle Stability, by chapter": chapters,
+        "Examples": ["gallery/index"],
+        "Reference": [
+            "reference/models/index",
+            "reference/vehicles",
+            "reference/laws",
+            "reference/commands",
+            "reference/python/index",
+            "changelog",
+        ],
+    }
+    lists = [
+        f"```{{toctree}}\n:hidden:\n:caption: {title}\n\n" + "\n".join(found) + "\n```"
+        for title, found in menus.items()
+    ]
+    return page(DOCS / "index.md") + "\n" + "\n\n".join(lists) + "\n"
+
+
+def stage(folder):
+    """Write everything that Sphinx reads."""
+    pages = {path.stem: path for path in sorted(DOCS.glob("*.md"))}
+    pages |= {"readme": ROOT / "README.md", "changelog": ROOT / "CHANGELOG.md"}
+    wanted = {folder / "index.md": index(list(pages))}
+    wanted |= {folder / f"{name}.md": page(path) for name, path in pages.items() if name != "index"}
+    for part in (models, commands, interface):
+        wanted |= {folder / "reference" / name: text for name, text in part.pages().items()}
+    for old in (*folder.glob("*.md"), *folder.glob("reference/**/*.*")):
+        if old not in wanted and old.is_file():
+            old.unlink()
+    for path, text in wanted.items():
+        write(path, text)
+    shutil.copytree(
+        DOCS / "images", folder / "images", dirs_exist_ok=True, ignore=shutil.ignore_patterns("*.py", "__*")
+    )
+
+
+def main(arguments=None):
+    """Write the sources and build the pages; return Sphinx's exit status."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", nargs="?", default=str(ROOT / "build" / "docs"), help="where to (build/docs)")
+    parser.add_argument("--without-gallery", action="store_true", help="do not run the examples")
+    chosen = parser.parse_args(arguments)
+    folder = Path(chosen.folder).resolve()
+    stage(folder / "source")
+    from sphinx.cmd.build import main as sphinx
+
+    options = ["-D", "plot_gallery=0"] if chosen.without_gallery else []
+    here = str(Path(__file__).parent)
+    places = [str(folder / "source"), str(folder / "html")]
+    return sphinx(["-W", "--keep-going", "-q", "-c", here, "-d", str(folder / "doctrees"), *options, *places])
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,125 @@
+"""``ucrit cycles``: limit cycles beyond and below the critical speed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from ..output import writer
+from ..parameters import Name, assignments, complete_parameters, load_vehicle
+from ..progress import progress
+
+if TYPE_CHECKING:
+    from ...analyses.cycles import LimitCycles
+
+ROWS = 12
+"""Cycles of a branch that are printed; all of them are written."""
+
+
+@click.command("cycles", short_help="Follow limit cycles: what happens beyond the critical speed.")
+@click.argument("vehicle", type=Name("vehicle", suffix=".toml"))
+@click.option(
+    "--set",
+    "changes",
+    metavar="NAME=VALUE",
+    multiple=True,
+    shell_complete=complete_parameters,
+    help="Change a parameter; may be repeated.",
+)
+@click.option("--along", metavar="NAME", help="Parameter that is varied; the speed by default.")
+@click.option("--from", "lower", metavar="VALUE", help="Least value; a fifth of the critical one by default.")
+@click.option("--to", "upper", metavar="VALUE", help="Greatest value; three times the critical one by default.")
+@click.option("--at", metavar="VALUE", help="Tell the cycles at this value; the vehicle's own by default.")
+@click.option("--basin", "disturbed", metavar="STATE", help="Simulate how large a disturbance of STATE persists.")
+@click.option("-o", "--out", metavar="FILE", help="Draw (.png, .svg, .pdf) or write (.csv, .json, .mat, .nc).")
+def command(
+    vehicle: str,
+    changes: tuple[str, ...],
+    along: str | None,
+    lower: str | None,
+    upper: str | None,
+    at: str | None,
+    disturbed: str | None,
+    out: str | None,
+) -> None:
+    """Follow the limit cycles that begin where VEHICLE starts to oscillate.
+
+    They tell whether the vehicle beyond its critical speed swings a little more (supercritical) or is left for a
+    wide oscillation at once (subcritical), and from which speed on a disturbed vehicle may keep oscillating.
+
+    \b
+    Examples:
+      ucrit cycles nose-gear --set k=-10 --at 25
+      ucrit cycles caravan-with-stabiliser --out cycles.png
+      ucrit cycles caravan-with-stabiliser --set "U=90 km/h" --basin theta
+      ucrit cycles worn-wheelset --from "100 km/h" --to "200 km/h" -o cycles.csv
+
+    Exit status: 0 followed; 2 wrong input, nothing is written then.
+    """
+    from ...analyses.basin import basin
+    from ...analyses.cycles import limit_cycles
+
+    write = None if out is None else writer(out)
+    subject = load_vehicle(vehicle, assignments(changes, 'a=1.9 or "m=2 t"'))
+    with progress("cycles") as advance:
+        found = limit_cycles(subject, along, lower, upper, progress=advance)
+    value = _value(found, at)
+    border = None
+    if disturbed is not None:
+        with progress("simulations") as advance:
+            border = basin(subject.with_(**{found.parameter: value}), disturbed, found, progress=advance)
+    if write is not None:
+        write(found)
+    _show(found, value, at is not None, None if border is None else str(border), out)
+
+
+def _value(found: LimitCycles, at: str | None) -> float:
+    from ...core.units import to_si
+
+    value = found.vehicle.values[found.parameter] if at is None else to_si(at, found.unit, found.parameter)
+    return float(value)
+
+
+def _show(found: LimitCycles, value: float, asked: bool, border: str | None, out: str | None) -> None:
+    from ...analyses.cycle_words import expectation
+    from ..terminal import Page, terminal, vehicle_head
+
+    page = Page(terminal())
+    vehicle_head(page, found.vehicle)
+    page.line()
+    for sentence in found.sentences:
+        page.paragraph(sentence)
+    if found.branches and (asked or found.lower <= value <= found.upper):
+        page.line()
+        page.paragraph(expectation(found, value))
+    if border is not None:
+        page.paragraph(border)
+    for branch in found.branches:
+        _table(page, branch)
+    if out is not None:
+        page.line()
+        page.line(f"The cycles are in {out}")
+
+
+def _table(page: Any, branch: Any) -> None:
+    from ...analyses.cycle_words import amplitude_text, leading_state, value_text
+    from ..wrap import number
+
+    name, unit = leading_state(branch)
+    page.heading(f"Limit cycles from {value_text(branch, branch.critical.value)}")
+    head = [f"{branch.parameter} [{branch.unit}]", "Hz", f"amplitude of {name}", "largest multiplier", ""]
+    step = -(-len(branch.cycles) // ROWS)
+    last = len(branch.cycles) - 1
+    shown = [c for i, c in enumerate(branch.cycles) if i % step == 0 or c.fold or i == last]
+    rows = [
+        [
+            number(cycle.value),
+            number(cycle.frequency_hz),
+            amplitude_text(cycle.amplitude[name], unit),
+            number(float(abs(cycle.multipliers).max(initial=0)), 3),
+            "fold" if cycle.fold else "stable" if cycle.stable else "unstable",
+        ]
+        for cycle in shown
+    ]
+    page.table(rows, head, right=(0, 1, 2, 3))

@@ -1,0 +1,50 @@
+"""``ucrit margins``: how far a vehicle under control is from instability."""
+
+from __future__ import annotations
+
+import click
+
+from ..parameters import Name, assignments, complete_parameters, load_vehicle
+
+
+@click.command("margins", short_help="Gain, phase, delay and disk margins of a vehicle under control.")
+@click.argument("vehicle", type=Name("vehicle", suffix=".toml"))
+@click.argument("ranges", nargs=-1, metavar="[NAME=RANGE...]", shell_complete=complete_parameters)
+@click.option("--input", "chosen", metavar="NAME", help="Input at which the loop is cut; all driven ones by default.")
+@click.option(
+    "--set",
+    "changes",
+    metavar="NAME=VALUE",
+    multiple=True,
+    shell_complete=complete_parameters,
+    help="Change a parameter; may be repeated.",
+)
+def command(vehicle: str, ranges: tuple[str, ...], chosen: str | None, changes: tuple[str, ...]) -> None:
+    """Tell by how much the gain, the phase and the delay of the control loop may change before it is unstable.
+
+    The vehicle's file names its controllers. With ranges the margins are a table, as CSV; a range is LO:HI, LO:HI:COUNT
+    or values separated by commas.
+
+    \b
+    Examples:
+      ucrit margins motorcycle-steered-to-lean
+      ucrit margins motorcycle-steered-to-lean --set G=0.4
+      ucrit margins motorcycle-steered-to-lean U=9:40:32
+
+    Exit status: 0 done; 2 wrong input.
+    """
+    from ...analyses.margins import driven_inputs, margins
+    from ...analyses.sweep import read_ranges
+
+    subject = load_vehicle(vehicle, assignments(changes, "G=0.3"))
+    names = [chosen] if chosen else driven_inputs(type(subject))
+    read = assignments(ranges, '"U=20:130:12 km/h"')
+    spans = read_ranges(subject, read)
+    for name in names:
+        found = margins(subject.with_(**spans), name)
+        if spans:
+            from ..output import to_stdout
+
+            to_stdout(found)
+        else:
+            click.echo(str(found))

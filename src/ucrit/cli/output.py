@@ -1,0 +1,52 @@
+"""Files that commands write: tables and pictures, each of them whole or not at all."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Mapping
+from typing import Any
+
+TABLES = {".csv": "to_csv", ".nc": "to_netcdf", ".json": "to_json", ".mat": "to_mat"}
+PICTURES = (".png", ".svg", ".pdf")
+
+Write = Callable[[Any], None]
+
+
+def writer(path: str, *, pictures: tuple[str, ...] = PICTURES, more: Mapping[str, Write] | None = None) -> Write:
+    """Return what writes a result into a file; an ending that is not known is refused before anything is computed.
+
+    ``more`` holds endings beyond tables and pictures, and what writes them.
+    """
+    from ..core.errors import UcritError
+
+    ending = path[path.rfind(".") :].lower() if "." in path else ""
+    if more and ending in more:
+        return more[ending]
+    if ending in TABLES:
+        return lambda result: getattr(result, TABLES[ending])(path)
+    if ending in pictures:
+        return lambda result: write_picture(result, path)
+    known = ", ".join((*TABLES, *pictures, *(more or ())))
+    raise UcritError(f"the output '{path}' must end in {known}")
+
+
+def write_picture(result: Any, path: str) -> None:
+    """Draw a result into a file."""
+    import io
+
+    from ..analyses.convert import write_whole
+    from ..plots import plot
+
+    content = io.BytesIO()
+    plot(result).savefig(content, format=path.rpartition(".")[2].lower(), dpi=150)
+    write_whole(path, content.getvalue())
+
+
+def to_stdout(result: Any) -> None:
+    """Print a result as CSV."""
+    import csv
+
+    columns = list(result.table().columns())
+    rows = csv.writer(sys.stdout, lineterminator="\n")
+    rows.writerow([f"{name} [{unit}]" if unit else name for name, unit, _ in columns])
+    rows.writerows(zip(*(values.tolist() for _, _, values in columns), strict=True))

@@ -1,0 +1,243 @@
+"""Branches of periodic solutions, followed from a Hopf point through folds by pseudo-arclength continuation.
+
+H. B. Keller, Numerical solution of bifurcation and nonlinear eigenvalue problems (1977); every size is measured against
+the present cycle's own, so that a branch is followed by shares whatever the units.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from . import collocation as co
+from . import orbit as orbits
+from .collocation import Corrected, Field
+from .cycle_points import Branch, Hopf, Point
+from .orbit import Metric, Orbit, Tangent, norm
+
+Array = npt.NDArray[Any]
+
+INTERVALS, MOST_INTERVALS = 20, 160
+STEP, SMALLEST_STEP = 0.15, 1e-6
+TURN, CORNER = 0.9, 1e-3
+"""Least cosine between the directions at two neighbouring points, and the step below which it may be anything."""
+
+SHARE_OF_RANGE = 0.1
+BENT = 1e-3
+"""Share of the linear rates that the rest of the rates has on the first cycle."""
+
+CLOSED = 0.3
+"""A branch whose cycle has shrunk to this share of the first one ends in an equilibrium."""
+
+ROOT_STEPS = 40
+
+
+def sizes(orbit: Orbit) -> Array:
+    """Return half the range of each state; a state that rests is given the largest of the others."""
+    dense = orbit.dense()
+    half = 0.5 * (dense.max(axis=1) - dense.min(axis=1))
+    return np.asarray(np.where(half > 1e-12 * half.max(), half, half.max() or 1.0))
+
+
+def _metric(orbit: Orbit, span: float) -> Metric:
+    return Metric(sizes(orbit), orbit.period, SHARE_OF_RANGE * span)
+
+
+def _point(field: Field, found: Corrected, metric: Metric, fold: bool = False) -> Point:
+    multipliers, trivial = orbits.multipliers(found.monodromy)
+    error = co.error(field, found.orbit, metric.states)
+    return Point(found.orbit, found.tangent, metric, multipliers, trivial, error, fold)
+
+
+def follow(
+    field: Field,
+    hopf: Hopf,
+    lower: float,
+    upper: float,
+    *,
+    tolerance: float = 1e-6,
+    count: int = 400,
+    beyond: Callable[[Orbit], bool] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> Branch | None:
+    """Follow the periodic solutions that leave a Hopf point.
+
+    Parameters
+    ----------
+    field
+        Right-hand side and its slopes.
+    hopf
+        Where the branch begins.
+    lower, upper
+        Range of the parameter, in which the Hopf point lies.
+    tolerance
+        Relative error of the states that is asked for; what is reached is told at each point.
+    count
+        Most points.
+    beyond
+        Tells of an orbit that the branch shall not be followed to it.
+    progress
+        Called with the number of points found and the most.
+
+    Returns
+    -------
+    Branch or None
+        ``None`` where no periodic solution is found next to the Hopf point.
+    """
+    here = _first(field, hopf, upper - lower)
+    if here is None:
+        return None
+    points, step, small = [here], STEP, CLOSED * here.metric.states
+    while len(points) < count:
+        here = _refined(field, points[-1], tolerance, len(points))
+        points[-1] = here
+        found, step, steps = _advance(field, here, step)
+        if found is None:
+            return Branch(tuple(points), "stuck")
+        new = _point(field, found, _metric(found.orbit, upper - lower))
+        if here.tangent.parameter * new.tangent.parameter < 0:
+            turn = locate(field, here, new, lambda found: found.tangent.parameter)
+            points += [turn] if turn else []
+        if beyond is not None and beyond(new.orbit):
+            return Branch(tuple(points), "large")
+        points.append(new)
+        parameter = new.orbit.parameter
+        if not lower <= parameter <= upper:
+            edge = at_parameter(field, points[-2], new, lower if parameter < lower else upper)
+            points[-1:] = [edge] if edge else []
+            return Branch(tuple(points), "range")
+        if np.all(new.metric.states < small):
+            return Branch(tuple(points), "equilibrium")
+        step = min(STEP, step * (1.4 if steps <= 4 else 1.0 if steps <= 7 else 0.7))
+        if progress is not None:
+            progress(len(points), count)
+    return Branch(tuple(points), "count")
+
+
+def _first(field: Field, hopf: Hopf, span: float) -> Point | None:
+    """Return the first small cycle of a branch, as large as makes the equations' curvature felt."""
+    size = _bending_size(field, hopf)
+    if np.isnan(size):
+        return None
+    mesh = np.linspace(0, 1, INTERVALS + 1)
+    shares = mesh[:-1, None] + np.diff(mesh)[:, None] * orbits.NODES
+    wave = np.real(hopf.vector * np.exp(2j * np.pi * shares[..., None]))
+    rest = Orbit(mesh, np.broadcast_to(hopf.state, wave.shape), 2 * np.pi / hopf.omega, hopf.parameter)
+    for scale in size * np.array([1.0, 0.1, 0.01, 10.0]):
+        away = Tangent(scale * wave, 0.0, 0.0)
+        guess = orbits.moved(rest, away, 1.0)
+        found = co.correct(field, guess, away, _metric(guess, span))
+        if found is not None and abs(found.orbit.period / rest.period - 1) < 0.2:
+            return _point(field, found, _metric(found.orbit, span))
+    return None
+
+
+def _bending_size(field: Field, hopf: Hopf) -> float:
+    """Return the size of the eigenvector's motion at which the rates are no longer linear in it."""
+    angles = np.exp(2j * np.pi * np.arange(8) / 8)
+    wave = np.real(hopf.vector[:, None] * angles)
+    A, _ = field.slopes(hopf.state[:, None], hopf.parameter)
+    linear = A[0] @ wave
+    rest = field.rates(hopf.state[:, None], hopf.parameter)
+    level = np.abs(linear).max(axis=1) + np.abs(linear).max() * 1e-300
+    scales = np.geomspace(1e-9, 1e6, 151)
+    x = hopf.state[:, None, None] + scales * wave[..., None]
+    with np.errstate(all="ignore"):
+        rates = field.rates(x.reshape(len(wave), -1), hopf.parameter).reshape(x.shape)
+        bent = np.abs((rates - rest[..., None]) / scales - linear[..., None]).max(axis=1) / level[:, None]
+    share = np.nanmax(np.where(np.isfinite(bent), bent, np.inf), axis=0)
+    far = np.flatnonzero((share > BENT) & (np.arange(len(scales)) > 20))
+    return float(scales[max(far[0] - 1, 0)] if far.size else np.nan)
+
+
+def _refined(field: Field, point: Point, tolerance: float, number: int) -> Point:
+    """Return a point on a mesh that suits it, finer where the error asks for it."""
+    for _ in range(4):
+        count = len(point.orbit.widths)
+        wanted = count * (point.error / tolerance) ** 0.2 if point.error > 0 else count
+        more = int(min(max(1.2 * wanted, count), 2 * count, MOST_INTERVALS))
+        if point.error <= tolerance and number % 4:
+            return point
+        mesh = orbits.adapted_mesh(point.orbit, point.metric.states, max(more, INTERVALS))
+        changed = point.orbit.on(mesh)
+        along = replace(point.orbit, values=point.tangent.values).on(mesh).values
+        tangent = Tangent(along, point.tangent.period, point.tangent.parameter)
+        found = co.correct(field, changed, tangent, point.metric)
+        if found is None:
+            return point
+        better = _point(field, found, point.metric, point.fold)
+        gain = point.error / max(better.error, 1e-300)
+        point = better
+        if better.error <= tolerance or (count == MOST_INTERVALS and gain < 1.5):
+            return point
+    return point
+
+
+def _advance(field: Field, here: Point, step: float) -> tuple[Corrected | None, float, int]:
+    """Return the next solution along a branch, the step that led to it and Newton's steps."""
+    widths, metric = here.orbit.widths, here.metric
+    ahead = orbits.scaled(here.tangent, 1 / norm(here.tangent, widths, metric))
+    while step > SMALLEST_STEP:
+        found = co.correct(field, orbits.moved(here.orbit, ahead, step), ahead, metric)
+        least = TURN if step > CORNER else 0.0
+        if found is not None and _cosine(found.tangent, ahead, widths, metric) > least:
+            return found, step, found.steps
+        step /= 2
+    return None, step, 0
+
+
+def _cosine(a: Tangent, b: Tangent, widths: Array, metric: Metric) -> float:
+    product = orbits.inner(a.values, b.values, widths, metric)
+    product += a.period * b.period / metric.period**2 + a.parameter * b.parameter / metric.parameter**2
+    return product / norm(a, widths, metric) / norm(b, widths, metric)
+
+
+def between(field: Field, a: Point, b: Point, share: float) -> Corrected | None:
+    """Return the solution at a share of the way from one point of a branch to its neighbour."""
+    other = b.orbit.on(a.orbit.mesh)
+    chord = Tangent(other.values - a.orbit.values, other.period - a.orbit.period, other.parameter - a.orbit.parameter)
+    return co.correct(field, orbits.moved(a.orbit, chord, share), chord, a.metric)
+
+
+def locate(field: Field, a: Point, b: Point, miss: Callable[[Corrected], float]) -> Point | None:
+    """Return the point between two neighbours where a function of the solution changes sign, by the Illinois method."""
+    ends = between(field, a, b, 0.0), between(field, a, b, 1.0)
+    if ends[0] is None or ends[1] is None:
+        return None
+    low, high, f_low, f_high = 0.0, 1.0, miss(ends[0]), miss(ends[1])
+    best, size = (ends[0], abs(f_low)) if abs(f_low) < abs(f_high) else (ends[1], abs(f_high))
+    if f_low * f_high > 0:
+        return None
+    for _ in range(ROOT_STEPS):
+        share = (low * f_high - high * f_low) / (f_high - f_low) if f_high != f_low else 0.5 * (low + high)
+        found = between(field, a, b, share)
+        if found is None:
+            break
+        value = miss(found)
+        if abs(value) < size:
+            best, size = found, abs(value)
+        if value == 0 or high - low < 1e-12 or size < 1e-13:
+            break
+        if value * f_high < 0:
+            low, f_low = high, f_high
+        else:
+            f_low /= 2
+        high, f_high = share, value
+    return _point(field, best, a.metric, fold=True)
+
+
+def at_parameter(field: Field, a: Point, b: Point, value: float) -> Point | None:
+    """Return the periodic solution at a value of the parameter between those of two neighbours."""
+    near = locate(field, a, b, lambda found: found.orbit.parameter - value)
+    if near is None:
+        return None
+    exact = replace(near.orbit, parameter=value)
+    only = Tangent(np.zeros_like(exact.values), 0.0, 1.0)
+    found = co.correct(field, exact, only, near.metric)
+    if found is None or abs(found.orbit.period / exact.period - 1) > 1e-6:
+        return replace(near, fold=False)
+    return replace(_point(field, found, near.metric), tangent=near.tangent)

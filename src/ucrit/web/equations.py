@@ -1,0 +1,37 @@
+"""The equations of motion, the derivation and the criterion, typeset as the report does."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from ..analyses.analyze import analyze
+from ..analyses.show import show
+from ..report import derivation, tables
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from ..core.model import Model
+
+HERE = Path(__file__).resolve().parent
+
+
+def equations(vehicle: Model, body: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a piece of page with MathML: conditions for stability, then the steps that lead to them."""
+    from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+    environment = Environment(
+        loader=FileSystemLoader(HERE), autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
+    )
+    found, described = analyze(vehicle, advise=False), show(vehicle)
+    content = {
+        "why": found.why_no_criteria,
+        "settled": found.criteria.settled if found.criteria else None,
+        "neutral": bool(found.criteria and found.criteria.kind == "neutral"),
+        "criteria": tables.criteria(found),
+        "critical": [row for row in tables.critical(found.critical.values) if row["closed"]] if found.critical else [],
+        "steps": derivation.steps(described),
+        "sources": described.sources,
+    }
+    return {"html": environment.get_template("equations.html.jinja").render(content)}

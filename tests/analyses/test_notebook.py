@@ -1,0 +1,200 @@
+"""What notebooks show: small tables, well-formed, every text escaped; and what every table can be turned into."""
+
+import base64
+import math
+import re
+import struct
+import zlib
+from html.parser import HTMLParser
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+import xarray
+from scipy.io import loadmat
+
+import ucrit
+from ucrit import UcritError, load
+from ucrit.analyses.thumbnail import png
+from ucrit.core import html
+
+NASTY = '<script>alert("1")</script> & Söhne'
+TABLES = {
+    "sweep": lambda v: ucrit.sweep(v, U=[10, 20, 40], c=[0, 4000]),
+    "locus": lambda v: ucrit.locus(v, points=20),
+    "modes": ucrit.modes,
+    "modes of arrays": lambda v: ucrit.modes(v.with_(U=[10, 20, 40])),
+    "critical": ucrit.critical,
+    "map": lambda v: ucrit.stability_map(v, U=[10, 20, 40], c=[0, 4000]),
+    "map of one": lambda v: ucrit.stability_map(v, U=[10, 20, 40]),
+    "sensitivity": ucrit.sensitivity,
+    "simulate": lambda v: ucrit.simulate(v, 1, {"theta": 0.01}),
+    "boundary": lambda v: ucrit.boundary(v, a=(3, 4), U=(10, 30)),
+    "trim": ucrit.trim,
+    "step": lambda v: ucrit.step_response(dressed("understeering-car"), "delta_f"),
+    "frequency": lambda v: ucrit.frequency_response(dressed("understeering-car"), "delta_f"),
+    "moment line": lambda v: ucrit.moment_line(dressed("navion-from-geometry")),
+    "settings": lambda v: ucrit.moment_line(dressed("navion-from-geometry"), "delta_e", [-0.02, 0]),
+}
+OTHERS = {
+    "vehicle": lambda v: v,
+    "vehicle of arrays": lambda v: v.with_(U=[10, 20]),
+    "analysis": ucrit.analyze,
+    "verdict": ucrit.verdict,
+    "mode": lambda v: next(iter(ucrit.modes(v))),
+    "criteria": ucrit.criteria,
+    "criterion": lambda v: ucrit.criteria(v).conditions[0],
+    "one critical": lambda v: ucrit.critical(v)[0],
+    "no critical": lambda v: ucrit.critical(v, "U", 1, 2),
+    "remedies": ucrit.remedies,
+    "no remedies": lambda v: ucrit.remedies(v, 10),
+    "remedy": lambda v: ucrit.remedies(v)[0],
+    "limit": lambda v: ucrit.limit(v, k=math.inf),
+    "transfer": lambda v: ucrit.transfer(dressed("understeering-car"), "delta_f", "r"),
+    "forms": ucrit.forms,
+    "one form": lambda v: ucrit.forms(v).descriptor,
+    "routh": lambda v: ucrit.routh("s^2 + a s + 1"),
+    "show": ucrit.show,
+    "compare": lambda v: ucrit.compare(v, load("caravan")),
+    "list": lambda v: ucrit.list("vehicles"),
+    "steady turn": lambda v: ucrit.steady_turn(dressed("understeering-car")),
+    "static": lambda v: ucrit.static_stability(dressed("understeering-car")),
+    "margin": lambda v: ucrit.static_margin(dressed("model-glider")),
+    "rollover": lambda v: ucrit.rollover(dressed("four-wheel-car")),
+    "approximation": lambda v: ucrit.approximation(v, v),
+    "audit": lambda v: ucrit.audit(v),
+    "bonds": lambda v: ucrit.bonds("caster"),
+    "check": lambda v: ucrit.check("cart"),
+}
+NAMELESS = {"verdict", "mode", "criteria", "criterion", "one critical", "remedies", "no remedies", "remedy", "limit"}
+NAMELESS |= {"transfer", "forms", "one form", "routh", "show", "list", "audit", "bonds", "check"}
+
+
+def dressed(name):
+    return load(name).with_info(name=NASTY, source=NASTY)
+
+
+@pytest.fixture(scope="module")
+def results():
+    caravan = dressed("caravan")
+    return {name: make(caravan) for name, make in {**TABLES, **OTHERS}.items()}
+
+
+class Nesting(HTMLParser):
+    """Asserts that tags close in order."""
+
+    def __init__(self):
+        super().__init__()
+        self.open = []
+
+    def handle_starttag(self, tag, attributes):
+        assert tag != "script"
+        if tag not in ("img", "br"):
+            self.open.append(tag)
+
+    def handle_endtag(self, tag):
+        assert self.open.pop() == tag
+
+
+@pytest.mark.parametrize("name", [*TABLES, *OTHERS])
+def test_a_notebook_shows_it_in_short_and_escaped(results, name):
+    shown = results[name]._repr_html_()
+    parser = Nesting()
+    parser.feed(shown)
+    assert not parser.open
+    assert name in NAMELESS or html.text(NASTY) in shown
+    assert re.search("<table|<p>|<pre>|<math", shown)
+    assert len(shown) < (200_000 if name == "show" else 20_000), "a notebook is no place for long tables"
+
+
+def test_the_numbers_shown_are_those_of_the_result(results):
+    found = results["critical"]
+    table = ElementTree.fromstring(found._repr_html_())
+    rows = [["".join(cell.itertext()) for cell in row] for row in table.find("tbody")]
+    assert [float(row[0]) for row in rows] == pytest.approx([c.value for c in found], rel=1e-9)
+    assert [row[1:] for row in rows] == [[c.kind, f"{c.frequency_hz:.6g}", c.mode, c.stable] for c in found]
+    head = ["".join(cell.itertext()) for cell in table.find("thead/tr")]
+    assert head[:3] == ["U [m/s]", "kind", "frequency [Hz]"]
+
+
+def test_a_long_table_is_cut_with_a_word_about_it():
+    many = ucrit.sweep(load("caravan"), U=np.linspace(1, 30, 1000))
+    shown = many._repr_html_()
+    assert "1000 rows, further columns" in shown
+    assert shown.count("<tr>") == 10
+
+
+def test_the_remedies_are_a_tuple_still():
+    found = ucrit.remedies(load("caravan"))
+    assert isinstance(found, tuple)
+    assert found == tuple(found)
+    assert str(found).splitlines()[0] == str(found[0])
+    assert ucrit.remedies(load("caravan"), 10) == ()
+
+
+def pixels(picture):
+    """Read back a palette PNG."""
+    assert picture.startswith(b"\x89PNG\r\n\x1a\n")
+    at, data = 8, b""
+    while at < len(picture):
+        size, kind = struct.unpack(">I4s", picture[at : at + 8])
+        content = picture[at + 8 : at + 8 + size]
+        assert struct.unpack(">I", picture[at + 8 + size : at + 12 + size])[0] == zlib.crc32(kind + content)
+        if kind == b"IHDR":
+            width, height = struct.unpack(">II", content[:8])
+        data += content if kind == b"IDAT" else b""
+        at += 12 + size
+    return np.frombuffer(zlib.decompress(data), np.uint8).reshape(height, width + 1)[:, 1:]
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (3, 2), (240, 7), (1000, 3), (500, 700)])
+def test_the_picture_of_a_map_is_the_map(shape):
+    stable = np.random.default_rng(1).random(shape) < 0.5
+    seen = pixels(png(stable))
+    assert max(seen.shape) <= 240
+    if max(shape) <= 120:
+        grow = seen.shape[1] // shape[0]
+        assert np.array_equal(seen[::grow, ::grow], stable.T[::-1])
+    assert (seen[0, 0], seen[-1, -1]) == (stable[0, -1], stable[-1, 0]) or max(shape) > 240
+    with pytest.raises(ValueError, match="two dimensions"):
+        png(np.zeros(3, bool))
+
+
+def test_the_picture_is_in_the_page(results):
+    found = re.search(r'src="data:image/png;base64,([^"]+)"', results["map"]._repr_html_())
+    seen = pixels(base64.b64decode(found[1]))
+    assert seen[0, -1] == results["map"].stable[-1, -1]
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_every_table_leaves_in_every_format(results, name, tmp_path):
+    result = results[name]
+    table = result.table()
+    data = result.to_xarray()
+    assert {s.name for s in table.data} <= set(data.data_vars)
+    frame = result.to_dataframe()
+    columns = list(table.columns())
+    assert list(frame.columns) == [column for column, _, _ in columns]
+    result.to_csv(tmp_path / "r.csv")
+    head, *lines = (tmp_path / "r.csv").read_text().splitlines()
+    assert len(lines) == len(frame)
+    result.to_netcdf(tmp_path / "r.nc")
+    with xarray.open_dataset(tmp_path / "r.nc") as kept:
+        assert set(data.variables) == set(kept.variables)
+        for key, series in data.items():
+            if series.dtype.kind == "f":
+                np.testing.assert_array_equal(kept[key].values, series.values)
+    result.to_mat(tmp_path / "r.mat")
+    read = loadmat(tmp_path / "r.mat")
+    assert {s.name for s in table.data} <= set(read)
+    assert all(s.unit == "1" or not s.unit or s.unit in head for s in table.coords if s.name in table.rows)
+
+
+def test_a_frequency_response_goes_to_python_control(results):
+    found = results["frequency"]
+    data = found.to_control()
+    assert data.output_labels == list(found.outputs)
+    np.testing.assert_allclose(data.complex[:, 0, :], found.values.T)
+    np.testing.assert_allclose(data.frequency, 2 * np.pi * found.frequencies)
+    with pytest.raises(UcritError, match="one vehicle"):
+        ucrit.frequency_response(load("understeering-car").with_(U=[10, 20]), "delta_f").to_control()
