@@ -21,10 +21,10 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.convert import to_scipy as to_scipy
     from .analyses.criteria import criteria as criteria
     from .analyses.critical import critical as critical
-    from .analyses.dwell import dwell_criteria as dwell_criteria
     from .analyses.cycles import limit_cycles as cycles  # noqa: F401
     from .analyses.cycles import limit_cycles as limit_cycles
     from .analyses.delays import simulate_delayed as simulate_delayed
+    from .analyses.dwell import dwell_criteria as dwell_criteria
     from .analyses.forms import Descriptor as Descriptor
     from .analyses.forms import NthOrder as NthOrder
     from .analyses.forms import SecondOrder as SecondOrder

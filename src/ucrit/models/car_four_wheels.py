@@ -9,7 +9,7 @@ they did: results are good up to the first lift. The model ends at standstill, w
 import math
 from types import MappingProxyType
 
-from ..core import Drawing, Model, cos, input, maximum, output, param, sin, slot, speed, sqrt, state
+from ..core import Drawing, Model, cos, input, output, param, sin, slot, speed, sqrt, state
 from ..parts.shapes import car
 from ..parts.tires import longitudinal_slip, slip_angle
 from ..parts.tires.linear import Linear
