@@ -11,12 +11,12 @@ from functools import cached_property
 from typing import Any
 
 import sympy as sp
-from sympy.polys.matrices import DomainMatrix
 from sympy.polys.rings import PolyElement, PolyRing
 
 from .errors import ModelError
 from .explicit import Explicit, explicit
 from .factor import common_divisor
+from .minors import determinant
 from .rings import cleared_row, polynomial_field
 from .settle import settled
 from .slopes import slopes_at
@@ -161,39 +161,10 @@ def characteristic_polynomial(
     for i in range(n):
         entries = [[elements[k * n * n + i * n + j] for k in range(len(P))] for j in range(n)]
         rows.append(cleared_row(entries, domain, ring, s))
-    determinant = _determinant(DomainMatrix(rows, (n, n), ring.to_domain()), ring)
-    if not determinant:
+    found = determinant(rows, ring)
+    if not found:
         raise ModelError(f"{where}: the equations of motion are not independent (their determinant is zero)")
-    return _collect(determinant, symbols, functions)
-
-
-def _determinant(matrix: DomainMatrix, ring: PolyRing) -> PolyElement:
-    """Return a determinant, but for its sign, as the product of those of the blocks into which the matrix falls.
-
-    Variables that act on others without being acted on, such as those of actuators, make blocks of their own.
-    """
-    product = ring.one
-    for block in matrix.scc():
-        product *= _by_minors(matrix.extract(block, block).to_list(), ring)
-    return product
-
-
-def _by_minors(rows: list[list[PolyElement]], ring: PolyRing) -> PolyElement:
-    """Return a determinant, but for its sign, by Laplace without divisions, each minor of the upper rows once.
-
-    Of sparse matrices of long polynomials only few minors are not zero, and their quotients would cost most.
-    """
-    minors = {0: ring.one}  # by the set of columns, as bits
-    for row in sorted(rows, key=lambda row: sum(map(bool, row))):
-        following: dict[int, PolyElement] = {}
-        for columns, minor in minors.items():
-            for j, entry in enumerate(row):
-                if entry and not columns >> j & 1:
-                    term = minor * entry if (columns >> j).bit_count() % 2 == 0 else -minor * entry
-                    key = columns | 1 << j
-                    following[key] = following[key] + term if key in following else term
-        minors = {columns: minor for columns, minor in following.items() if minor}
-    return next(iter(minors.values()), ring.zero)
+    return _collect(found, symbols, functions)
 
 
 def _collect(
