@@ -24,6 +24,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.cycles import limit_cycles as cycles  # noqa: F401
     from .analyses.cycles import limit_cycles as limit_cycles
     from .analyses.delays import simulate_delayed as simulate_delayed
+    from .analyses.dwell import dwell_criteria as dwell_criteria
     from .analyses.forms import Descriptor as Descriptor
     from .analyses.forms import NthOrder as NthOrder
     from .analyses.forms import SecondOrder as SecondOrder
@@ -148,6 +149,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "limit_cycles": "analyses.cycles",
     "moment_line": "analyses.pitching",
     "static_margin": "analyses.pitching",
+    "dwell_criteria": "analyses.dwell",
     "rollover": "analyses.rollover",
     "routh": "analyses.routh",
     "simulate": "analyses.simulate",

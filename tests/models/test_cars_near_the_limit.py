@@ -168,9 +168,28 @@ def test_a_turn_can_be_held_by_the_brakes_of_one_side():
 
 
 def test_formulas_with_conditions_are_well_formed():
-    from ucrit import show
+    from ucrit.core.trace import trace
+    from ucrit.core.typeset import mathml
     from ucrit.report.formulas import formula
 
-    for part in show("car-four-wheels").equations[:2]:
-        assert any(f"<mo>{sign}</mo>" in part.mathml for sign in ("&lt;", ">"))
-        assert "math" in formula(part.mathml)
+    reference = mathml(trace(type(load("car-with-stability-control"))).residuals[-1])
+    assert any(f"<mo>{sign}</mo>" in reference for sign in ("&lt;", ">"))
+    assert "math" in formula(reference)
+
+
+@pytest.mark.parametrize("law", ["brush", "dugoff"])
+def test_the_four_wheel_car_on_tires_that_friction_limits_is_the_linear_one_in_gentle_motion(law):
+    from ucrit import check
+    from ucrit.catalogue import find_part
+
+    base = load("four-wheel-car")
+    fitted = type(base).fitted(front=find_part(law, Tire), rear=find_part(law, Tire))
+    names = fitted.declaration.parameters
+    car = fitted(**{n: base.values[n] for n in names if n in base.values})
+    if law == "brush":
+        base = base.with_(front_C_x=base.front_C, rear_C_x=base.rear_C)  # as stiff along as across
+    for mine, linear in zip(state_space(car)[:2], state_space(base)[:2], strict=True):
+        np.testing.assert_allclose(mine, linear, rtol=1e-10, atol=1e-10)
+    report = check(car)
+    assert report.ok, str(report)
+    assert "published for these parts" in str(report)

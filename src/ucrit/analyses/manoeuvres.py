@@ -166,11 +166,10 @@ class SineWithDwell(Shape):
 
     def signal(self, quantity: Quantity, thing: str, until: float) -> Signal:
         """Return the manoeuvre as a function of time."""
-        size, at = _size(self.size, quantity, thing), _time(self.at, "at", thing)
-        f, dwell = _frequency(self.frequency, thing), _time(self.dwell, "hold", thing, above=0)
-        peak, omega = at + 0.75 / f, 2 * math.pi * f
+        size, (at, peak, left, _) = _size(self.size, quantity, thing), self.times(thing)
+        omega, dwell = 2 * math.pi * _frequency(self.frequency, thing), left - peak
         return Signal(
-            (at, peak, peak + dwell, at + 1 / f + dwell),
+            self.times(thing),
             (
                 lambda _: 0.0,
                 lambda t: size * math.sin(omega * (t - at)),
@@ -179,6 +178,18 @@ class SineWithDwell(Shape):
                 lambda _: 0.0,
             ),
         )
+
+    def times(self, thing: str = "sine with dwell") -> tuple[float, float, float, float]:
+        """Return when it begins, reaches and leaves its second peak, and is completed [s].
+
+        Parameters
+        ----------
+        thing
+            What it is, for error messages.
+        """
+        at, f = _time(self.at, "at", thing), _frequency(self.frequency, thing)
+        dwell = _time(self.dwell, "hold", thing, above=0)
+        return at, at + 0.75 / f, at + 0.75 / f + dwell, at + 1 / f + dwell
 
 
 @dataclass(frozen=True)

@@ -99,14 +99,23 @@ class Subject:
         sets = self.parameter_sets(purpose, count, direction)
         return [tuple(float(values[i]) for values in sets) for i in range(count)]
 
+    @property
+    def _refitted(self) -> bool:
+        """Whether the model has other parts than its file in the catalogue, for which nothing is published."""
+        return self.model._unfitted is not None
+
     @cached_property
     def _published(self) -> Mapping[str, list[Entry]]:
         path = self.published_file or PUBLISHED / f"{self.model.model_id().replace('-', '_')}.toml"
-        return read_published(path) if self.published_file or path.is_file() else {}
+        found = self.published_file is not None or (path.is_file() and not self._refitted)
+        return read_published(path) if found else {}
 
     def published(self, table: str) -> list[Entry]:
         """Return the published entries of a table, of which there is at least one."""
         entries = self._published.get(table, [])
+        if not entries and self._refitted and not self.published_file:
+            laws = ", ".join(f"{name} {slot.law.part_id()}" for name, slot in self.model.declaration.slots.items())
+            raise NotApplicableError(f"nothing is published for these parts: {laws}")
         if not entries:
             raise NotApplicableError(f"nothing is published as [[{table}]]")
         return entries

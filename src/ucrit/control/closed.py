@@ -159,6 +159,8 @@ def _close(plant: type[Model], controller: type[Controller]) -> type[Model]:
     body |= {"_reaches": tuple(reaches)}
     body |= {"even": (*getattr(plant, "even", ()), *getattr(controller, "even", ()))}
     body |= {"mirror": getattr(plant, "mirror", True) and getattr(controller, "mirror", True)}
+    body |= {"sides": (*getattr(plant, "sides", ()), *getattr(controller, "sides", ()))}
+    body |= {name: getattr(plant, name) for name in ("keeps_speed", "wheel_loads", "valid") if hasattr(plant, name)}
     if hasattr(plant, "possible") or hasattr(controller, "possible"):
         body["possible"] = _possible
     body |= {name: own for name, own in {"events": _events, "drawing": _drawing}.items() if hasattr(plant, name)}

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
+from itertools import count
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -23,18 +24,35 @@ def generate(name: str, arguments: Sequence[Sequence[sympy.Symbol]], expressions
     """
     import sympy as sp
 
+    from .plane import computable
+
+    renamed = renaming(arguments)
+    swapped = [computable(sp.sympify(e)).xreplace(renamed) for e in expressions]
+    shared, results = sp.cse(swapped, symbols=(sp.Symbol(f"t{i}") for i in count()), order="none")
+    return write(name, [len(group) for group in arguments], shared, results)
+
+
+def renaming(arguments: Sequence[Sequence[sympy.Symbol]]) -> dict[Any, Any]:
+    """Return the symbols that stand for those of the arguments in generated source: v0, v1, ..."""
+    import sympy as sp
+
     flat = [symbol for group in arguments for symbol in group]
-    renamed = {symbol: sp.Symbol(f"v{i}", **symbol._assumptions_orig) for i, symbol in enumerate(flat)}
-    swapped = [sp.sympify(e).xreplace(renamed) for e in expressions]
-    shared, results = sp.cse(swapped, symbols=(sp.Symbol(f"t{i}") for i in range(10**6)), order="none")
+    return {symbol: sp.Symbol(f"v{i}", **symbol._assumptions_orig) for i, symbol in enumerate(flat)}
+
+
+def write(name: str, sizes: Sequence[int], steps: Iterable[tuple[Any, Any]], results: Iterable[Any]) -> str:
+    """Return the source of a function that takes steps, each a name and its value, and returns results.
+
+    Arguments are groups of the given sizes; their items are called as by `renaming`.
+    """
     printer = _printer()
-    lines, position = [f"def {name}({', '.join(f'g{i}' for i in range(len(arguments)))}):"], 0
-    for i, group in enumerate(arguments):
-        if group:
-            names = ", ".join(f"v{position + j}" for j in range(len(group)))
+    lines, position = [f"def {name}({', '.join(f'g{i}' for i in range(len(sizes)))}):"], 0
+    for i, size in enumerate(sizes):
+        if size:
+            names = ", ".join(f"v{position + j}" for j in range(size))
             lines.append(f"    {names}, = g{i}")
-        position += len(group)
-    lines += [f"    {symbol} = {printer.doprint(value)}" for symbol, value in shared]
+        position += size
+    lines += [f"    {printer.doprint(symbol)} = {printer.doprint(value)}" for symbol, value in steps]
     values = "".join(f"{printer.doprint(value)}, " for value in results)
     return "\n".join([*lines, f"    return ({values})", ""])
 

@@ -50,9 +50,9 @@ def cramer(system: LinearSystem, input: str, output: str) -> Rational:
         If there is no such input or output.
     """
     from sympy import ZZ, Dummy, S
-    from sympy.polys.matrices import DomainMatrix
     from sympy.polys.rings import PolyRing
 
+    from .minors import blocks, determinant, part
     from .rings import cleared_row, polynomial_field
 
     entries = _bordered(system, input, output)
@@ -65,11 +65,13 @@ def cramer(system: LinearSystem, input: str, output: str) -> Rational:
     for row in entries:
         chains = [[next(source) for _ in chain] for chain in row]
         rows.append(cleared_row([*chains, [one]], domain, ring, ring.gens[-1]))
-    scale = rows[-1][-1]
-    square = [row[:-1] for row in rows]
-    above = DomainMatrix(square, (n + 1, n + 1), ring.to_domain()).det()
-    below = scale * DomainMatrix([row[:n] for row in square[:n]], (n, n), ring.to_domain()).det()
-    return _lowest_terms(above, below, functions)
+    scale, square = rows[-1][-1], [row[:-1] for row in rows]
+    apart = blocks(square, ring)
+    inner = next(block for block in apart if n in block)
+    above = determinant(part(square, inner), ring)
+    below = scale * determinant(part(square, [i for i in inner if i != n]), ring)
+    beside = [determinant(part(square, block), ring) for block in apart if block is not inner]
+    return _lowest_terms(above, below, beside, functions)
 
 
 def check_names(model: type[Model], input: str, output: str) -> None:
@@ -97,7 +99,8 @@ def _bordered(system: LinearSystem, input: str, output: str) -> list[list[list[A
     return [*rows, last]
 
 
-def _lowest_terms(above: Any, below: Any, functions: Mapping[Any, Any]) -> Rational:
+def _lowest_terms(above: Any, below: Any, beside: Sequence[Any], functions: Mapping[Any, Any]) -> Rational:
+    """Divide numerator and denominator by what they share; ``beside`` are factors of both that were left out."""
     from .factor import common_divisor, definite_sign, factors
 
     common = common_divisor(above, below) if above else below
@@ -105,7 +108,8 @@ def _lowest_terms(above: Any, below: Any, functions: Mapping[Any, Any]) -> Ratio
     leading = coefficients_in_s(denominator)[-1]
     if definite_sign(leading) == -1 or (definite_sign(leading) is None and leading.LC < 0):
         numerator, denominator = -numerator, -denominator
-    shared = [f for f, _ in factors(common)[1] if any(m[-1] for m in f.itermonoms())] if above else []
+    found = [f for each in (common, *beside) for f, _ in factors(each)[1]] if above else []
+    shared = list(dict.fromkeys(f for f in found if any(m[-1] for m in f.itermonoms())))
     return Rational(numerator, denominator, tuple(shared), functions)
 
 

@@ -7,10 +7,12 @@ from typing import Any
 
 import sympy as sp
 
-from .codegen import generate
+from .codegen import generate, renaming, write
 from .linear import LinearSystem, linear_system
 from .model import Model
 from .nonlinear import constraints, solve_for_highest
+from .plane import computable
+from .slopes import staged_slopes
 from .trace import trace
 
 _symbolic: Any = cache(linear_system)
@@ -119,11 +121,8 @@ def motion_slope_facts(model: type[Model]) -> dict[str, Any]:
 
 def _sparse(name: str, groups: Any, expressions: Any, variables: Any) -> dict[str, Any]:
     """Return places and source of the slopes that are not zero."""
-    places, slopes = [], []
-    for i, expression in enumerate(expressions):
-        for j, variable in enumerate(variables):
-            slope = expression.diff(variable).replace(sp.DiracDelta, lambda *_: sp.S.Zero)
-            if slope != 0:
-                places.append((i, j))
-                slopes.append(slope)
-    return {"places": places, "source": generate(name, groups, slopes)}
+    renamed = renaming(groups)
+    formulas = [computable(sp.sympify(e)).xreplace(renamed) for e in expressions]
+    found = staged_slopes(formulas, [renamed[v] for v in variables])
+    source = write(name, [len(group) for group in groups], found.steps, found.slopes.values())
+    return {"places": list(found.slopes), "source": source}

@@ -81,3 +81,28 @@ def grouped(a: Any) -> Any:
 
         return Group(a)
     return a
+
+
+def length(a: Any, b: Any) -> Any:
+    """Return the length of a plane vector of pure numbers, without a corner where it vanishes.
+
+    Formulas can divide by it and be differentiated: where both components vanish its slope is zero.
+
+    >>> float(length(-3.0, 4.0)), length(0, -2.0)
+    (5.0, 2.0)
+    """
+    if _is_zero(a):
+        return abs(b)
+    if _is_zero(b):
+        return abs(a)
+    if hasattr(a, "free_symbols") or hasattr(b, "free_symbols"):
+        import sympy
+
+        from .plane import Length
+
+        return Length(sympy.sympify(a), sympy.sympify(b))
+    return sqrt(a * a + b * b)
+
+
+def _is_zero(value: Any) -> bool:
+    return bool(getattr(value, "is_zero", False)) or (isinstance(value, int | float) and value == 0)

@@ -11,14 +11,19 @@ from functools import cached_property
 from typing import Any
 
 import sympy as sp
-from sympy.polys.matrices import DomainMatrix
 from sympy.polys.rings import PolyElement, PolyRing
 
 from .errors import ModelError
 from .explicit import Explicit, explicit
 from .factor import common_divisor
+from .minors import determinant
 from .rings import cleared_row, polynomial_field
+from .settle import settled
+from .slopes import slopes_at
 from .trace import Traced, trace
+
+MAX_DIRECT = 1000
+"""Operations in equations of motion above which these are differentiated piece by piece."""
 
 
 @dataclass(frozen=True)
@@ -102,32 +107,37 @@ class LinearSystem:
 
 def linearize(traced: Traced) -> LinearSystem:
     """Differentiate the residuals and outputs and evaluate them on the basic motion."""
-    top = max(len(chain) for chain in traced.q)
+    top, n, m = max(len(chain) for chain in traced.q), len(traced.q), len(traced.u)
     basic = dict(traced.basic)
+    by = [symbol for chain in traced.q for symbol in chain] + list(traced.u)
 
-    def jacobians(expressions: Sequence[Any]) -> tuple[sp.Matrix, ...]:
-        return tuple(
-            sp.Matrix(
-                len(expressions),
-                len(traced.q),
-                lambda i, j, k=k: (
-                    sp.diff(expressions[i], traced.q[j][k]).xreplace(basic) if k < len(traced.q[j]) else 0
-                ),
-            )
-            for k in range(top)
-        )
+    def matrices(expressions: Sequence[Any]) -> tuple[tuple[sp.Matrix, ...], sp.Matrix]:
+        slopes = _slopes(settled(expressions, basic), by, basic)
+        found = [sp.zeros(len(expressions), n) for _ in range(top)]
+        places = [(k, j) for j, chain in enumerate(traced.q) for k in range(len(chain))]
+        driven = sp.zeros(len(expressions), m)
+        for (i, place), slope in slopes.items():
+            if place < len(places):
+                k, j = places[place]
+                found[k][i, j] = slope
+            else:
+                driven[i, place - len(places)] = slope
+        return tuple(found), driven
 
-    def by_inputs(expressions: Sequence[Any]) -> sp.Matrix:
-        size = len(expressions), len(traced.u)
-        return sp.Matrix(*size, lambda i, j: sp.diff(expressions[i], traced.u[j]).xreplace(basic))
+    (P, driven), (C, D) = matrices(traced.residuals), matrices(traced.outputs)
+    return LinearSystem(traced, P, -driven, C, D)
 
-    return LinearSystem(
-        traced,
-        jacobians(traced.residuals),
-        -by_inputs(traced.residuals),
-        jacobians(traced.outputs),
-        by_inputs(traced.outputs),
-    )
+
+def _slopes(expressions: Sequence[Any], by: Sequence[Any], basic: Mapping[Any, Any]) -> dict[tuple[int, int], Any]:
+    """Return the slopes on the basic motion that are not zero; of long formulas piece by piece."""
+    if sum(e.count_ops() for e in expressions) > MAX_DIRECT:
+        return slopes_at(expressions, by, basic)
+    found = {}
+    for i, e in enumerate(expressions):
+        for j, symbol in enumerate(by):
+            if e.has(symbol):
+                found[i, j] = sp.diff(e, symbol).xreplace(dict(basic))
+    return found
 
 
 def linear_system(model: Any, direction: int = 1, method: str = "") -> LinearSystem:
@@ -151,10 +161,10 @@ def characteristic_polynomial(
     for i in range(n):
         entries = [[elements[k * n * n + i * n + j] for k in range(len(P))] for j in range(n)]
         rows.append(cleared_row(entries, domain, ring, s))
-    determinant = DomainMatrix(rows, (n, n), ring.to_domain()).det()
-    if not determinant:
+    found = determinant(rows, ring)
+    if not found:
         raise ModelError(f"{where}: the equations of motion are not independent (their determinant is zero)")
-    return _collect(determinant, symbols, functions)
+    return _collect(found, symbols, functions)
 
 
 def _collect(

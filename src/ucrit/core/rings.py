@@ -25,17 +25,26 @@ Row = list[list[Any]]  # row[j][k]: coefficient of the k-th derivative of variab
 
 
 def function_symbols(expressions: Iterable[Any], parameters: Mapping[Any, Parameter]) -> tuple[Swap, Swap]:
-    """Return what replaces each function of parameters by a symbol, and what puts it back.
+    """Return what replaces each function or square root of parameters by a symbol, and what puts it back.
 
     Symbols are named as the function prints. Sines and cosines of one argument stay related only through
     what simplification did before; a relation between them is not known to the polynomials.
     """
     found: set[Any] = set()
     for expression in expressions:
-        found |= {f for f in sp.sympify(expression).atoms(sp.Function) if f.free_symbols}
-    outer = [f for f in found if isinstance(f, Group) or not any(f in g.atoms(sp.Function) and f != g for g in found)]
-    swap = {f: sp.Symbol(str(f), **_assumption(f, parameters)) for f in sorted(outer, key=str)}
-    return swap, {symbol: f for f, symbol in swap.items()}
+        found |= {
+            f for f in sp.sympify(expression).atoms(sp.Function, sp.Pow) if f.free_symbols and not _is_rational(f)
+        }
+    kept = {f: sp.sqrt(f.base) if f.is_Pow else f for f in found}
+    outer = {f for f in kept.values() if isinstance(f, Group) or not any(g.has(f) and f != g for g in kept.values())}
+    names = {f: sp.Symbol(str(f), **_assumption(f, parameters)) for f in sorted(outer, key=str)}
+    swap = {f: names[root] ** (2 * f.exp) if f.is_Pow else names[f] for f, root in kept.items() if root in names}
+    return swap, {symbol: f for f, symbol in names.items()}
+
+
+def _is_rational(expression: Any) -> bool:
+    """Tell a power that polynomials have, or that no square root makes one of, from other functions."""
+    return bool(expression.is_Pow and (expression.exp.is_Integer or not (2 * expression.exp).is_Integer))
 
 
 def _assumption(function: Any, parameters: Mapping[Any, Parameter]) -> dict[str, bool]:

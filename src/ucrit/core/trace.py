@@ -13,6 +13,7 @@ from .declare import Parameter
 from .dimensions import check_dimensions
 from .errors import ModelError
 from .model import STATEMENTS, Model, Names, as_tuple, call
+from .settle import settled
 
 Expr = Any
 
@@ -191,7 +192,7 @@ def _basic_motion(
 
 
 def _check_basic_motion(traced: Traced) -> None:
-    for number, residual in enumerate(traced.residuals, 1):
+    for number, residual in enumerate(settled(traced.residuals, traced.basic), 1):
         left = residual.xreplace(dict(traced.basic))
         if left.has(sp.zoo, sp.nan, sp.oo) or (left != 0 and sp.simplify(left) != 0):
             raise ModelError(

@@ -9,14 +9,19 @@ they did: results are good up to the first lift. The model ends at standstill, w
 import math
 from types import MappingProxyType
 
-from ..core import Drawing, Model, cos, input, maximum, output, param, sin, slot, speed, sqrt, state
+from ..core import Drawing, Model, cos, input, output, param, sin, slot, speed, sqrt, state
 from ..parts.shapes import car
-from ..parts.tires import slip_angle
+from ..parts.tires import longitudinal_slip, slip_angle
 from ..parts.tires.linear import Linear
 
 WHEELS = ("fl", "fr", "rl", "rr")
 LEAST = 1e-6
-"""Load of a wheel that has lifted, as a share of the car's weight, so that tire laws keep a value."""
+"""Load of a wheel that has lifted, as a share of its load at rest, so that tire laws keep a value."""
+
+
+def larger(a, b):
+    """Return the larger of two values, without a condition that conditions of tire laws would enclose."""
+    return (a + b + abs(a - b)) / 2
 
 
 class CarFourWheels(Model):
@@ -85,28 +90,39 @@ class CarFourWheels(Model):
         yield from ((self.a, -self.t_f / 2), (self.a, self.t_f / 2))
         yield from ((-self.b, -self.t_r / 2), (-self.b, self.t_r / 2))
 
+    def loads_at_rest(self):
+        """Vertical loads of a front and of a rear wheel without accelerations."""
+        share = self.m * self.g / (2 * (self.a + self.b))
+        return share * self.b, share * self.a
+
     def loads(self, x):
         """Vertical loads of the wheels, negative where one would have to be held down."""
-        wheelbase = self.a + self.b
-        pitch = self.m * x.A_x * self.h / (2 * wheelbase)
-        front = self.m * self.g * self.b / (2 * wheelbase) - pitch
-        rear = self.m * self.g * self.a / (2 * wheelbase) + pitch
+        front, rear = self.loads_at_rest()
+        pitch = self.m * x.A_x * self.h / (2 * (self.a + self.b))
+        front, rear = front - pitch, rear + pitch
         roll = self.m * x.A_y * self.h
         left, right = self.zeta * roll / self.t_f, (1 - self.zeta) * roll / self.t_r
         return front + left, front - left, rear + right, rear - right
 
-    def wheels(self, x, u):
-        """Of each wheel: forward and rightward force on the car, and moment about its axle."""
+    def tires(self, u):
+        """Tires of the wheels, as they are on their road."""
+        return self.front, self.front, self.rear, self.rear
+
+    def slips(self, x, u):
+        """Of each wheel: slip angle and longitudinal slip."""
         steer = (u.delta_f, u.delta_f, u.delta_r, u.delta_r)
-        tires, spins = (self.front, self.front, self.rear, self.rear), [getattr(x, f"omega_{w}") for w in WHEELS]
-        for (ahead, right), load, delta, tire, spin in zip(
-            self.places(), self.loads(x), steer, tires, spins, strict=True
-        ):
+        for (ahead, right), delta, wheel in zip(self.places(), steer, WHEELS, strict=True):
             forward, sideways = x.v_x - right * x.r, x.v_y + ahead * x.r
             along = forward * cos(delta) + sideways * sin(delta)
             across = sideways * cos(delta) - forward * sin(delta)
-            kappa = (self.R * spin - along) / abs(along)
-            F = tire.forces(maximum(load, LEAST * self.m * self.g), slip_angle(across, along), kappa)
+            yield slip_angle(across, along), longitudinal_slip(self.R, getattr(x, f"omega_{wheel}"), along)
+
+    def wheels(self, x, u):
+        """Of each wheel: forward and rightward force on the car, and moment about its axle."""
+        steer, (front, rear) = (u.delta_f, u.delta_f, u.delta_r, u.delta_r), self.loads_at_rest()
+        loads = map(larger, self.loads(x), (LEAST * front, LEAST * front, LEAST * rear, LEAST * rear))
+        for tire, load, delta, slips in zip(self.tires(u), loads, steer, self.slips(x, u), strict=True):
+            F = tire.forces(load, *slips)
             yield F.F_x * cos(delta) - F.F_y * sin(delta), F.F_x * sin(delta) + F.F_y * cos(delta), self.R * F.F_x
 
     def equations(self, x, dx, u):

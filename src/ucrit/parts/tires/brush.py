@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from ...core.declare import param
-from ...core.functions import maximum, tan
-from .slip import length
+from ...core.functions import length, maximum, tan
 from .tire import Forces, Tire
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from ...core.declare import param
-from ...core.functions import maximum, tan
-from .slip import is_zero, length
+from ...core.functions import length, maximum, tan, where
+from .slip import is_zero
 from .tire import Forces, Tire
 
 
@@ -27,8 +27,8 @@ class Dugoff(Tire):
         along, across = self.C_x / self.C * kappa, tan(alpha)
         twice, held = 2 * self.C * length(along, across), self.mu * F_z * (1 + kappa)
         greater = maximum(twice, held)
-        used = held / greater  # below zero only where the wheel turns backward, which slides whole
-        stiffness = self.C * self.mu * F_z / greater * (2 - (used if is_zero(kappa) else maximum(used, 0)))
+        used = held / greater if is_zero(kappa) else where(1 + kappa > 0, held / greater, 0)  # slides whole backward
+        stiffness = self.C * self.mu * F_z / greater * (2 - used)
         return Forces(stiffness * along, -stiffness * across, 0)
 
     def cornering_coefficient(self, F_z: Any) -> Any:

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
+from ...core.functions import grouped
+
 
 def degressive_coefficient(C_max: Any, F_max: Any, F_z: Any) -> Any:
     """Return a cornering coefficient [N/rad] that rises with the load, ever less, to C_max at F_max, and then falls.
@@ -14,4 +16,5 @@ def degressive_coefficient(C_max: Any, F_max: Any, F_z: Any) -> Any:
     >>> [degressive_coefficient(80e3, 8e3, F_z) for F_z in (4e3, 8e3, 16e3)]
     [64000.0, 80000.0, 64000.0]
     """
-    return 2 * C_max * F_max * F_z / (F_max**2 + F_z**2)
+    u = F_z / F_max
+    return C_max * grouped(2 * u / (1 + u * u))

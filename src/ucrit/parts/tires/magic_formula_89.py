@@ -13,9 +13,9 @@ from typing import Any, ClassVar
 
 from ...core.declare import param
 from ...core.errors import UcritError
-from ...core.functions import exp, grouped, sin, where
+from ...core.functions import exp, grouped, length, sin, where
 from .coefficients import Coefficients, check_switches, curve
-from .slip import is_zero, length
+from .slip import is_zero
 from .tire import Forces, Tire
 
 NEEDED = ("a0", "a1", "a2", "a3", "a4", "a7", "b0", "b1", "b2", "b3", "b4", "b8", "c0", "c1", "c2", "c3", "c4", "c9")

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...core.functions import atan, sqrt
+from ...core.functions import atan
 
 
 def slip_angle(lateral: Any, longitudinal: Any) -> Any:
@@ -39,23 +39,3 @@ def linear_side_force(C: Any, alpha: Any) -> Any:
 def is_zero(value: Any) -> bool:
     """Return whether a value is zero itself, not a symbol or an array that may be."""
     return bool(getattr(value, "is_zero", False)) or (isinstance(value, int | float) and value == 0)
-
-
-def length(a: Any, b: Any) -> Any:
-    """Return the length of a plane vector of pure numbers, without a corner where it vanishes.
-
-    As a formula it is then 1e-15 instead of 0, so that formulas can divide by it and be differentiated.
-
-    >>> float(length(-3.0, 4.0)), length(0, -2.0)
-    (5.0, 2.0)
-    """
-    if is_zero(a):
-        return abs(b)
-    if is_zero(b):
-        return abs(a)
-    square = a * a + b * b
-    if hasattr(square, "free_symbols"):
-        import sympy
-
-        square += sympy.Rational(1, 10**30)
-    return sqrt(square)

@@ -61,12 +61,12 @@ class Tire(Part):
         """
         return self.cornering_coefficient(F_z) / k_y
 
-    def on_road(self, factor: float) -> Tire:
-        """Return the tire on a road whose friction is this multiple of the friction it is given for."""
+    def on_road(self, factor: Any) -> Tire:
+        """Return the tire on a road whose friction is this multiple, a number or symbol, of what it is given for."""
         if not self.friction:
             raise UcritError(f"{type(self).part_id()}: the law knows no friction, so no road can change it")
         values = {name: factor * value if name in self.friction else value for name, value in self.__dict__.items()}
-        return type(self)(**values)
+        return type(self).bound(values) if hasattr(factor, "free_symbols") else type(self)(**values)
 
 
 def axle_coefficient(tire: Tire, F_z: Any, transfer: Any) -> Any:
