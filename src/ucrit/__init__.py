@@ -12,7 +12,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.audit import audit as audit
     from .analyses.basin import basin as basin
     from .analyses.bonds import bonds as bonds
-    from .analyses.bonds import power_flow as power_flow
+    from .analyses.power_flow import power_flow as power_flow
     from .analyses.boundary import boundary as boundary
     from .analyses.certify import certify as certify
     from .analyses.cite import cite as cite
@@ -172,7 +172,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "trim": "analyses.trim",
     "uncertainty": "analyses.uncertainty",
     "bonds": "analyses.bonds",
-    "power_flow": "analyses.bonds",
+    "power_flow": "analyses.power_flow",
     "show": "analyses.show",
     "list": ("analyses.listing", "listing"),
     "new": ("analyses.listing", "template"),

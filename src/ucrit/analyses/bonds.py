@@ -1,25 +1,20 @@
-"""What a bond graph says: causality, findings, state equations and power; and the powers along a motion."""
+"""What a bond graph says: causality, findings, state equations and power balance."""
 
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-import numpy.typing as npt
-
 from ..bondgraph.causality import HEAD, Causality
 from ..bondgraph.graph import Graph
-from ..bondgraph.model import BondGraphModel, graph_of, input_symbols, states_bond_graph
+from ..bondgraph.model import graph_of, input_symbols, states_bond_graph
 from ..catalogue import BONDS, find_model, model_from_file, model_names
 from ..core.errors import UcritError, near_match
 from ..core.html import Rich
 from ..core.model import Model
-from .simulation import Simulation
 
-Array = npt.NDArray[np.float64]
 WHY = {
     "source": "a source",
     "end": "its only bond",
@@ -61,8 +56,8 @@ class Bonds(Rich):
         Derivative causality and algebraic loops, a sentence each.
     balanced
         Whether power passes junctions, transformers and gyrators unchanged, and the energy's rate is what goes in.
-    text
-        The graph as text that is read back to an equal one.
+    model
+        The model that states the graph, ``None`` for a bare graph.
     """
 
     name: str
@@ -73,12 +68,25 @@ class Bonds(Rich):
     equations: tuple[str, ...]
     findings: tuple[str, ...]
     balanced: bool
-    text: str
+    model: type[Model] | None = field(default=None, repr=False)
 
     @property
     def graph(self) -> Graph:
         """The graph."""
         return self.causality.graph
+
+    @property
+    def text(self) -> str:
+        """The graph as text that is read back to an equal one, with the declarations of its model.
+
+        Raises `ModelError` where a law holds a function that the text form has no name for.
+        """
+        from ..bondgraph.writing import write_graph, write_sheet
+
+        if self.model is None:
+            return write_graph(self.graph) + "\n"
+        declared = self.model.declaration
+        return write_sheet(self.title, declared.parameters, declared.inputs, self.graph)
 
     def __str__(self) -> str:
         lines = [f"{r.number}: {r.tail} -> {r.head}, effort on {r.effort_on}" for r in self.rows]
@@ -107,7 +115,6 @@ def bonds(subject: Graph | type[Model] | Model | str | os.PathLike[str]) -> Bond
     """
     from ..bondgraph.equations import state_equations
     from ..bondgraph.power import power_balance
-    from ..bondgraph.writing import write_graph
     from ..core.typeset import text as typeset
 
     graph, model = _graph(subject)
@@ -123,14 +130,8 @@ def bonds(subject: Graph | type[Model] | Model | str | os.PathLike[str]) -> Bond
         equations=tuple(f"{s}' = {typeset(r)}" for s, r in zip(found.states, found.tidied, strict=True)),
         findings=found.findings,
         balanced=not power.unbalanced and power.conserved is not False,
-        text=write_graph(graph) + "\n" if model is None else _sheet(model, graph),
+        model=model,
     )
-
-
-def _sheet(model: type[Model], graph: Graph) -> str:
-    from ..bondgraph.writing import write_sheet
-
-    return write_sheet(model.title(), model.declaration.parameters, model.declaration.inputs, graph)
 
 
 def _graph(subject: Any) -> tuple[Graph, type[Model] | None]:
@@ -164,89 +165,3 @@ def _rows(found: Causality) -> tuple[BondRow, ...]:
         on = bond.head if stroke == HEAD else bond.tail
         rows.append(BondRow(bond.number, bond.tail, bond.head, on, step.element, WHY[step.reason]))
     return tuple(rows)
-
-
-@dataclass(frozen=True)
-class PowerFlow:
-    """Powers along a simulated motion.
-
-    Attributes
-    ----------
-    times
-        [s], shape (T,).
-    powers
-        Power along each bond [W], positive from tail to head, shape (T, bonds).
-    energy
-        Held by all stores [J], shape (T,).
-    supplied, dissipated
-        Given by all sources, taken by all resistances [W], shape (T,).
-    """
-
-    times: Array
-    powers: Array
-    energy: Array
-    supplied: Array
-    dissipated: Array
-
-    @property
-    def imbalance(self) -> float:
-        """Largest difference of the energy from what has come in, as a share of the energy that was about.
-
-        The integral over time is Simpson's on the given times, and its error is part of this.
-        """
-        from scipy.integrate import cumulative_simpson
-
-        net = self.supplied - self.dissipated
-        gained = cumulative_simpson(net, x=self.times, initial=0.0)
-        about = np.ptp(self.energy) + np.trapezoid(np.abs(self.supplied) + np.abs(self.dissipated), self.times)
-        return float(np.max(np.abs(self.energy - self.energy[0] - gained)) / (about or 1.0))
-
-
-def power_flow(simulation: Simulation) -> PowerFlow:
-    """Return the power of every bond, and the energy, along a simulated motion.
-
-    Parameters
-    ----------
-    simulation
-        What `ucrit.simulate` returned for a vehicle whose model is stated by a bond graph.
-
-    Raises
-    ------
-    UcritError
-        If the model is stated otherwise, or its energy is unknown.
-
-    Examples
-    --------
-    >>> from ucrit import param, power_flow, simulate
-    >>> from ucrit.bondgraph import BondGraphModel, C, Graph, I, one
-    >>> class Bouncing(BondGraphModel):
-    ...     m: float = param("kg", "mass", above=0)
-    ...     k: float = param("N/m", "stiffness", above=0)
-    ...
-    ...     def bond_graph(self):
-    ...         return Graph(one("x"), I("mass", self.m), C("spring", 1 / self.k), "x -> mass", "x -> spring")
-    >>> flow = power_flow(simulate(Bouncing(m=1, k=4), 3, {"q_spring": 0.1}))
-    >>> bool(abs(flow.energy - 0.02).max() < 1e-9)
-    True
-    """
-    from ..bondgraph.equations import state_equations
-    from ..bondgraph.power import power_balance
-    from ..core.codegen import build, generate
-    from ..core.trace import parameter_symbol
-
-    model = type(simulation.vehicle)
-    if not issubclass(model, BondGraphModel):
-        raise UcritError(f"{model.model_id()} is not stated by a bond graph: derive it from BondGraphModel")
-    declared = model.declaration
-    inputs = list(input_symbols(declared.inputs).values())
-    found = state_equations(graph_of(model, None), tuple(inputs))
-    power = power_balance(found)
-    if power.energy is None:
-        raise UcritError(f"{model.model_id()}: the energy of a store is unknown, its law cannot be integrated")
-    parameters = [parameter_symbol(p, None) for p in declared.parameters.values()]
-    wanted = [*power.bonds, power.energy, power.supplied, power.dissipated]
-    function = build(generate("powers", [list(found.symbols), inputs, parameters], wanted), "powers")
-    order = [simulation.states.index(name) for name in found.states]
-    values = function(simulation.values.T[order], simulation.input_values.T, simulation.vehicle.arguments())
-    table = np.array([np.broadcast_to(v, simulation.times.shape) for v in values], dtype=np.float64)
-    return PowerFlow(simulation.times, table[:-3].T, *table[-3:])

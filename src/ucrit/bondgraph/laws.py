@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..core.errors import ModelError
+from .formulas import formula
 
 VARIABLES = ("effort", "flow", "momentum", "displacement")
 READINGS = ("e", "f", "p", "q")
@@ -85,14 +86,18 @@ class Law:
         return [sp.sympify(x) for x in found]
 
     def __str__(self) -> str:
-        matrix = self.coefficients
-        if matrix is not None and (self.gives, self.takes) in LINEAR:
-            rows = [", ".join(str(entry) for entry in matrix.row(i)) for i in range(self.ports)]
+        if not self.takes:
+            return formula(self.expressions[0])
+        if is_plain(self):
+            rows = [", ".join(map(formula, self.coefficients.row(i))) for i in range(self.ports)]
             return rows[0] if self.ports == 1 else "[" + "; ".join(rows) + "]"
         given = [self.gives] if self.ports == 1 else [f"{self.gives}_{k}" for k in range(1, self.ports + 1)]
-        if not self.takes:
-            return str(self.expressions[0])
-        return "; ".join(f"{g} = {x}" for g, x in zip(given, self.expressions, strict=True))
+        return "; ".join(f"{g} = {formula(x)}" for g, x in zip(given, self.expressions, strict=True))
+
+
+def is_plain(law: Law) -> bool:
+    """Tell whether a number or a matrix says it all, as it does of sources, ratios and linear laws of the usual way."""
+    return not law.takes or ((law.gives, law.takes) in LINEAR and law.coefficients is not None)
 
 
 LINEAR = (("momentum", "flow"), ("displacement", "effort"), ("effort", "flow"))

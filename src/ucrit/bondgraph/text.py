@@ -20,7 +20,8 @@
 
 A field has a matrix, ``I body = [m, 0; 0, m]``, or laws ``effort_1 = ...; effort_2 = ...``. Laws read other elements
 as ``f.x``, ``e.x``, ``p.x``, ``q.x``, and ports of fields as ``p.body.2``. ``speed U: forward speed`` declares the
-speed, ``speed U reverse: ...`` one that may be negative.
+speed, ``speed U reverse: ...`` one that may be negative. Laws with corners and branches are written with ``abs``,
+``min``, ``max`` and ``where(condition, then, otherwise)``; conditions are comparisons joined by ``and``, ``or``, ``not``.
 """
 
 from __future__ import annotations
@@ -232,7 +233,7 @@ def _element(kind: str, rest: str, names: Mapping[str, Any]) -> Element:
 
 
 def _expression(text: str, names: Mapping[str, Any], kind: str, name: str) -> Any:
-    from ..core.expressions import parse
+    from ..core.expressions import LAWS, parse
 
     known = dict(names)
     for match in READING.finditer(text):
@@ -240,7 +241,7 @@ def _expression(text: str, names: Mapping[str, Any], kind: str, name: str) -> An
         key = f"{variable}.{element}" + (f"._{port}" if port else "")
         known[key] = reading(variable, element, int(port) if port else None)
     formula = READING.sub(lambda m: f"{m[1]}.{m[2]}" + (f"._{m[3]}" if m[3] else ""), text).replace("^", "**")
-    return parse(formula, known, f"{kind} '{name}'")
+    return parse(formula, known, f"{kind} '{name}'", LAWS)
 
 
 def _matrix(law: str, names: Mapping[str, Any], kind: str, name: str) -> Any:

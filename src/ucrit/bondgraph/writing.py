@@ -9,7 +9,9 @@ from typing import Any
 from ..core.declare import Input, Parameter
 from ..core.errors import ModelError
 from .elements import Element
+from .formulas import unnamed
 from .graph import ARROW, Graph
+from .laws import is_plain
 from .text import BOUNDS
 
 
@@ -44,22 +46,8 @@ def _element_line(element: Element) -> str:
     law = element.law
     if law is None:
         return f"{element.kind} {element.name}"
-    text = str(law).replace("Abs(", "abs(")
     for x in law.expressions:
-        for function in x.atoms(_function()):
-            if function.func.__name__ not in _names_of_functions():
-                raise ModelError(f"{element}: the text form has no name for {function}")
-    sign = ":" if "=" in text else " ="
-    return f"{element.label} {element.name}{sign} {text}"
-
-
-def _function() -> Any:
-    from sympy.core.function import Application
-
-    return Application
-
-
-def _names_of_functions() -> set[str]:
-    from ..core.expressions import FUNCTIONS
-
-    return {"Abs", *FUNCTIONS}
+        if (odd := unnamed(x)) is not None:
+            raise ModelError(f"{element}: the text form has no name for {odd}")
+    sign = " =" if is_plain(law) else ":"
+    return f"{element.label} {element.name}{sign} {law}"

@@ -32,6 +32,7 @@ CHECKS: tuple[tuple[str, Callable[[Subject], str]], ...] = (
     ("published motion", derivations.published_motion),
     ("further derivations", derivations.derivations),
     ("bond graph", bonds.bond_graph),
+    ("bond graph in motion", bonds.bond_graph_in_motion),
     ("published critical values", stability.critical),
     ("published criteria", stability.criterion),
     ("published numbers", eigenvalues.numbers),

@@ -19,7 +19,7 @@ def show_bonds(console: Console, found: Bonds, drawing: str | None = None) -> No
         page.paragraph(found.name, "bold")
         page.paragraph(found.title)
     page.heading("Elements")
-    page.table([[e.label, e.name, str(e.law or "").replace("Abs(", "abs(")] for e in found.graph.elements])
+    page.table([[e.label, e.name, str(e.law or "")] for e in found.graph.elements])
     page.heading("Bonds, power counted along the arrow; the causal stroke is where the effort acts")
     rows = [[str(r.number), r.tail, r.head, r.effort_on, f"{r.settled_by}, {r.reason}"] for r in found.rows]
     page.table(rows, head=("no", "from", "to", "stroke at", "settled by"), right=(0,))

@@ -16,7 +16,8 @@ from ..bondgraph.elements import JUNCTIONS, Element
 from ..bondgraph.graph import Bond
 from ..bondgraph.laws import LINEAR
 from . import style
-from .bond_layout import Box, extent, inside, places_of
+from .bond_room import Box, ends, extent, places_of
+from .bond_signals import signal_paths
 
 SIZE, NAME_SIZE, NUMBER_SIZE = 11.0, 7.0, 7.0
 BARB, BARB_ANGLE = 0.11, math.radians(38)
@@ -45,7 +46,8 @@ def plot_bond_graph(found: Causality, *, numbers: bool = True, names: bool = Tru
         graph = found.graph
         boxes = {e.name: _box(e, names) for e in graph.elements}
         places = places_of(graph, boxes)
-        low, high = extent(places, boxes)
+        signals = signal_paths(graph, places, boxes)
+        low, high = extent(places, boxes, signals)
         if figure is None:
             figure = style.new_figure(*(high - low))
             figure.set_layout_engine("none")
@@ -54,8 +56,8 @@ def plot_bond_graph(found: Causality, *, numbers: bool = True, names: bool = Tru
         axes.set_xlim(low[0], high[0])
         axes.set_ylim(low[1], high[1])
         axes.set_aspect("equal")
-        for signal in graph.signals:
-            _draw_signal(axes, signal.source, signal.target, places, boxes)
+        for path in signals:
+            _draw_signal(axes, path)
         for bond, stroke in zip(graph.bonds, found.strokes, strict=True):
             _draw_bond(axes, bond, stroke, places, boxes, numbers)
         for element in graph.elements:
@@ -137,15 +139,15 @@ def _draw_element(axes: Any, element: Element, at: np.ndarray[Any, Any], box: Bo
 
 
 def _draw_bond(axes: Any, bond: Bond, stroke: str, places: Any, boxes: Any, numbers: bool) -> None:
-    tail, head, unit = _ends(bond.tail, bond.head, places, boxes)
+    tail, head, unit = ends(bond.tail, bond.head, places, boxes)
     normal = np.array([-unit[1], unit[0]])
     side = _side(normal)
     line = {"color": style.INK, "linewidth": 1.1, "solid_capstyle": "round", "zorder": 3}
     _segment(axes, tail, head, **line)
     barb = head - BARB * (math.cos(BARB_ANGLE) * unit - math.sin(BARB_ANGLE) * side * normal)
     _segment(axes, head, barb, **line)
-    end = head if stroke == HEAD else tail
-    _segment(axes, end - STROKE / 2 * normal, end + STROKE / 2 * normal, **{**line, "linewidth": 1.8})
+    stroke_at = head if stroke == HEAD else tail
+    _segment(axes, stroke_at - STROKE / 2 * normal, stroke_at + STROKE / 2 * normal, **{**line, "linewidth": 1.8})
     if numbers:
         at = (tail + head) / 2 - side * normal * 0.09
         options = {"ha": "center", "va": "center", "zorder": 4, "path_effects": style.halo()}
@@ -159,33 +161,16 @@ def _side(normal: np.ndarray[Any, Any]) -> float:
     return 1.0 if normal[0] < 0 else -1.0
 
 
-def _ends(source: str, target: str, places: Any, boxes: Any, gap: float = 0.0) -> tuple[Any, Any, Any]:
-    a, b = places[source], places[target]
-    unit = (b - a) / np.linalg.norm(b - a)
-    start = a + unit * (inside(unit, boxes[source].half) + gap)
-    return start, b - unit * (inside(unit, boxes[target].half) + gap), unit
-
-
-def _draw_signal(axes: Any, source: str, target: str, places: Any, boxes: Any) -> None:
-    """Draw an activated bond: a thin dashed full arrow, bowed so that it keeps off the bonds."""
+def _draw_signal(axes: Any, path: np.ndarray[Any, Any]) -> None:
+    """Draw an activated bond: a thin dashed full arrow."""
     from matplotlib.patches import FancyArrowPatch
+    from matplotlib.path import Path
 
-    start, end, _ = _ends(source, target, places, boxes, 0.02)
-    axes.add_patch(
-        FancyArrowPatch(
-            tuple(start),
-            tuple(end),
-            arrowstyle="-|>",
-            connectionstyle="arc3,rad=0.22",
-            mutation_scale=7,
-            linewidth=0.7,
-            linestyle=(0, (4, 2)),
-            color=style.BRANCHES[1],
-            zorder=1,
-            shrinkA=0,
-            shrinkB=0,
-        )
-    )
+    color = style.BRANCHES[1]
+    options = {"color": color, "linewidth": 0.7, "zorder": 1}
+    axes.plot(*path[:-2].T, linestyle=(0, (4, 2)), **options)
+    head = Path([path[-4], path[-1]])
+    axes.add_patch(FancyArrowPatch(path=head, arrowstyle="-|>", mutation_scale=7, shrinkA=0, shrinkB=0, **options))
 
 
 def _segment(axes: Any, start: Any, end: Any, **line: Any) -> None:
