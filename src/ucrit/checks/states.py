@@ -27,13 +27,13 @@ class States:
     parameters: list[Array]
 
 
-def random_states(subject: Subject, purpose: str, count: int = COUNT) -> States:
+def random_states(subject: Subject, purpose: str, count: int = COUNT, reach: float = REACH) -> States:
     """Return random states about the basic motion that satisfy the model's constraints."""
     rng, traced = subject.rng(f"states for {purpose}"), subject.traced
     parameters = subject.parameter_sets(purpose, count, subject.either)
     w, u = (np.broadcast_to(v.T, (count, v.shape[0])).T for v in subject.motion.basic(parameters))
-    w = w + rng.uniform(-REACH, REACH, (len(traced.states), count))
-    u = u + rng.uniform(-REACH, REACH, (len(traced.u), count))
+    w = w + rng.uniform(-reach, reach, (len(traced.states), count))
+    u = u + rng.uniform(-reach, reach, (len(traced.u), count))
     return States(_onto(constraints(traced), traced, w, u, parameters), u, parameters)
 
 
