@@ -12,7 +12,6 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.audit import audit as audit
     from .analyses.basin import basin as basin
     from .analyses.bonds import bonds as bonds
-    from .analyses.power_flow import power_flow as power_flow
     from .analyses.boundary import boundary as boundary
     from .analyses.certify import certify as certify
     from .analyses.cite import cite as cite
@@ -49,6 +48,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.modes import modes as modes
     from .analyses.pitching import moment_line as moment_line
     from .analyses.pitching import static_margin as static_margin
+    from .analyses.power_flow import power_flow as power_flow
     from .analyses.remedies import remedies as remedies
     from .analyses.response import frequency_response as frequency_response
     from .analyses.response import impulse_response as impulse_response

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import importlib
 import importlib.util
+import json
 import os
 import pkgutil
 from collections.abc import Mapping
@@ -71,10 +72,14 @@ def find_model(name: str, folder: Path | None = None) -> type[Model]:
 
 def model_from_file(path: Path, where: str) -> type[Model]:
     """Return the model that a bond graph's text file describes; ``where`` names it in messages."""
+    return graph_model(read_text(path), path.stem, where)
+
+
+def graph_model(text: str, name: str, where: str) -> type[Model]:
+    """Return the model that a bond graph's text describes, under a name."""
     from .bondgraph.model import model_from_text
 
-    text, stem = read_text(path), path.stem.replace("-", "_")
-    return model_from_text(text, stem if stem.isidentifier() else "BondGraph", where)
+    return model_from_text(text, name, where)
 
 
 def part_names(kind: type[Part]) -> tuple[str, ...]:
@@ -176,7 +181,7 @@ def read_vehicle(text: str, where: str, changes: Mapping[str, Any] | None = None
     """
 
     def model(name: str) -> type[Model]:
-        if ".py" in name:
+        if ".py" in name or name.endswith(BONDS):
             raise UcritError(f"'{name}' is a file; name a model of the catalogue here")
         return find_model(name)
 
@@ -185,7 +190,7 @@ def read_vehicle(text: str, where: str, changes: Mapping[str, Any] | None = None
             raise UcritError(f"'{name}' is a file; name a law or a tire of the catalogue here")
         return find_part(name, kind)
 
-    return parse_vehicle(text, where, Find(model, part, controlled), changes)
+    return parse_vehicle(text, where, Find(model, part, controlled, graph_model), changes)
 
 
 def _laws(kind: type[Part]) -> dict[str, type[Part]]:
@@ -302,12 +307,13 @@ def _from_file(path: Path, cls: str) -> type[Model]:
 
 
 def load(vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = None, at_speed: Any = None) -> Model:
-    """Return a vehicle: one that is shipped, by name, or one from a TOML file.
+    """Return a vehicle: one that is shipped, by name, or one from a file.
 
     Parameters
     ----------
     vehicle
-        ``"caravan"``, or the path of a file (anything ending in ``.toml`` or holding a path separator).
+        ``"caravan"``, or the path of a vehicle file (anything ending in ``.toml`` or holding a path separator), or of a
+        bond graph (``.bonds``) whose parameters have defaults or are among the changes.
     changes
         Parameter values [SI, or text with a unit] that replace those of the file.
     at_speed
@@ -326,10 +332,13 @@ def load(vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = No
     name = os.fspath(vehicle)
     if name in vehicle_names():
         path, where = VEHICLES / f"{name}.toml", name
-    elif name.endswith(".toml") or os.sep in name or Path(name).is_file():
+    elif name.endswith((".toml", BONDS)) or os.sep in name or Path(name).is_file():
         path, where = Path(name), name
     else:
         raise UcritError(f"there is no vehicle '{name}'{near_match(name, vehicle_names())}")
     folder = path.parent
-    find = Find(lambda model: find_model(model, folder), lambda law, kind: find_part(law, kind, folder), controlled)
-    return parse_vehicle(read_text(path), where, find, changes, at_speed)
+    text = f"model = {json.dumps(path.name)}\n[parameters]" if path.suffix == BONDS else read_text(path)
+    find = Find(
+        lambda model: find_model(model, folder), lambda law, kind: find_part(law, kind, folder), controlled, graph_model
+    )
+    return parse_vehicle(text, where, find, changes, at_speed)

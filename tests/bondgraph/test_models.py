@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 import sympy as sp
 
 from ucrit import ModelError, UcritError, bonds, check, critical, find_model, input, load, param, power_flow, simulate
-from ucrit.bondgraph import BondGraphModel, C, Graph, I, R, Se, graph_of, one, q
+from ucrit.bondgraph import TF, BondGraphModel, C, Graph, I, R, Se, equations, graph_of, one, q
 from ucrit.bondgraph.equations import state_equations
+from ucrit.checks.bonds import bond_graph_in_motion
+from ucrit.checks.report import FailedCheckError
+from ucrit.checks.subject import Subject
 from ucrit.core.derive import symbolic
 from ucrit.core.functions import tanh
 from ucrit.core.linear import characteristic_polynomial
@@ -147,16 +152,90 @@ def test_power_balances_in_simulation():
 
 
 def test_an_imbalance_is_seen():
-    from dataclasses import replace
-
     vehicle = Rubbing(m=2, k=30, h=50, F_0=1, v_0=0.2)
     flow = power_flow(simulate(vehicle, 4, {"q_spring": 0.5}))
     assert replace(flow, dissipated=1.01 * flow.dissipated).imbalance > 1e-3
 
 
-def test_powers_need_a_graph_and_an_energy():
-    with pytest.raises(UcritError, match="oscillator is not stated by a bond graph"):
-        power_flow(simulate(load("driven-mass"), 1))
+def test_powers_need_a_graph_and_one_motion():
+    with pytest.raises(UcritError, match="bowling-ball states no bond graph"):
+        power_flow(simulate(load("bowling-ball-on-a-stick"), 1))
+    with pytest.raises(UcritError, match="powers are told of one motion"):
+        power_flow(simulate(load("driven-mass", {"m": [1, 2]}), 1))
+
+
+def in_motion(model):
+    """Return what the check along simulated motions says of a model; raise where it fails."""
+    return bond_graph_in_motion(Subject.of(model, 0, None))
+
+
+@pytest.mark.parametrize("name", ["satellite", "caster-flexible-sidewall", "trailer-rigid-tire", "wheelset"])
+def test_elements_do_what_they_state_along_the_models_own_motion(name):
+    assert "the energy changes by what comes in" in in_motion(find_model(name))
+
+
+@pytest.mark.parametrize("name", ["hitch", "mass_ahead", "damper", "axle_x", "tire", "speed"])
+def test_any_wrong_element_is_found_along_a_motion(name):
+    trailer = find_model("trailer")
+
+    class Wrong(trailer):
+        """Trailer with a graph in which one element is a tenth too large (Nobody 2000, nowhere)."""
+
+        def bond_graph(self):
+            graph = trailer.bond_graph(self)
+            swap = {e: replace(e, law=scaled(e.law)) if e.name == name else e for e in graph.elements}
+            return Graph(*swap.values(), *(f"{b.tail} -> {b.head}" for b in graph.bonds))
+
+    with pytest.raises(FailedCheckError, match="the energy of the stores is not what sources give"):
+        in_motion(Wrong)
+
+
+def scaled(law):
+    return replace(law, expressions=tuple(sp.Rational(11, 10) * x for x in law.expressions))
+
+
+@pytest.mark.parametrize(
+    ("kind", "sentence"),
+    [
+        ("_two_port", "TF 'lever' does not do what it states"),
+        ("_resistance", "R 'damper' does not do what it states"),
+    ],
+)
+def test_a_wrong_derivation_is_found_along_a_motion(monkeypatch, kind, sentence):
+    from ucrit.bondgraph import assignments
+
+    def wrong(work, element, bonds, inward):
+        before = dict(work.of)
+        right(work, element, bonds, inward)
+        first = next(symbol for symbol in work.of if symbol not in before)
+        work.of[first] *= sp.Rational(11, 10)
+
+    class Levered(BondGraphModel):
+        """Mass on a lever with a damper and a spring (Nobody 2000, nowhere)."""
+
+        m: float = param("kg", "mass", above=0)
+        k: float = param("N/m", "stiffness", above=0)
+        c: float = param("N s/m", "damping", above=0)
+        n: float = param("1", "leverage", above=0)
+
+        def bond_graph(self):
+            return Graph(
+                one("x"), one("y"), I("mass", self.m), C("spring", 1 / self.k), R("damper", self.c),
+                TF("lever", self.n),
+                "x -> mass", "x -> lever -> y -> spring", "y -> damper",
+            )  # fmt: skip
+
+    right = getattr(assignments, kind)
+    caches = (equations.assembled, equations.state_equations)
+    monkeypatch.setattr(assignments, kind, wrong)
+    for cached in caches:
+        cached.cache_clear()
+    try:
+        with pytest.raises(FailedCheckError, match=sentence):
+            in_motion(Levered)
+    finally:
+        for cached in caches:
+            cached.cache_clear()
 
 
 def test_a_model_of_a_graph_has_every_analysis():
@@ -179,6 +258,10 @@ def cubic(self):
     return Graph(one("x"), I("mass", momentum=lambda v: v**3), "x -> mass")
 
 
+def lone(self):
+    return Graph(one("x"), I("mass", self.n), "x -> mass")
+
+
 def unitless(self):
     return Graph(one("x"), I("mass", self.n), R("r", 1), "x -> mass", "x -> r")
 
@@ -189,7 +272,8 @@ def unitless(self):
         (lambda self: None, "bond_graph must return a Graph, got NoneType"),
         (lambda self, w: None, "Wrong.bond_graph: there is no argument 'w'; allowed: u"),
         (cubic, "I 'mass': its law gives momentum and cannot be solved for flow"),
-        (unitless, "the unit of p_mass does not follow from the graph; declare it by state()"),
+        (unitless, "the law of R 'r' is a number without a unit, make it a parameter"),
+        (lone, "the unit of p_mass does not follow from the graph; declare it by state()"),
     ],
 )
 def test_a_wrong_graph_model_is_told(graph, sentence):

@@ -96,3 +96,21 @@ def test_the_audits_entries_are_documented(run: Run) -> None:
     rows = re.findall(r"^\| (`audit.*?) \|", section, re.MULTILINE)
     documented = {name for row in rows for name in re.findall(r"`audit\.([^`]+)`", row)}
     assert set(paths(json.loads(run("analyze", "caravan", "--audit", "--json").stdout)["audit"])) == documented
+
+
+def test_a_graphs_entries_are_documented(run: Run, tmp_path: Path) -> None:
+    section = next(part for part in DOCUMENT.split("\n## ") if part.startswith("`ucrit bonds --json"))
+    rows = re.findall(r"^\| (`.*?) \| .*? \| (.*) \|$", section, re.MULTILINE)
+    documented = {
+        name: set(re.findall(r"`(\w+)`", meaning)) for names, meaning in rows for name in re.findall(r"`(\w+)`", names)
+    }
+    loops = "1 x\nSe push = 1\nR a = 2\n0 z\nR b = 3\npush -> x -> a\nx -> z -> b"
+    loop = tmp_path / "loop.bonds"
+    loop.write_text(loops)
+    for name in ("caravan-rigid-tire", str(loop)):
+        found = json.loads(run("bonds", name, "--json").stdout)
+        assert set(found) == set(documented)
+        for key in ("elements", "bonds", "signals", "dependent", "loops", "states"):
+            for entry in found[key]:
+                assert set(entry) <= documented[key]
+    assert [(loop["bonds"], loop["linear"]) for loop in found["loops"]] == [([2, 3, 4], True)]

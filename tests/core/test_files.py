@@ -1,6 +1,6 @@
 import pytest
 
-from ucrit.catalogue import controlled, find_model, find_part, load, model_names, vehicle_names
+from ucrit.catalogue import controlled, find_model, find_part, graph_model, load, model_names, vehicle_names
 from ucrit.core.errors import UcritError
 from ucrit.core.files import Find, parse_vehicle, vehicle_template, write_vehicle
 
@@ -17,7 +17,7 @@ U = "50 km/h"
 """
 
 
-FIND = Find(find_model, find_part, controlled)
+FIND = Find(find_model, find_part, controlled, graph_model)
 
 
 def parse(text):

@@ -146,7 +146,7 @@ def test_a_model_of_ones_own_is_refused(started: list[str], tmp_path: Path) -> N
         "    y = ucrit.coordinate('m', 'place')\n    def equations(self, ddx):\n        return self.m * ddx.y\n"
     )
     (tmp_path / "mine.toml").write_text('model = "mine.py"\n[parameters]\nm = 1\n')
-    with pytest.raises(UcritError, match="'Mine' is not made of these alone"):
+    with pytest.raises(UcritError, match="'Mine' is made of others"):
         app(tmp_path / "mine.toml", port=0, browser=False, tell=started.append)
 
 

@@ -8,7 +8,7 @@ import re
 import tomllib
 from dataclasses import dataclass
 
-from ..catalogue import VEHICLES, controller_names, find_controller, find_model, model_names, vehicle_names
+from ..catalogue import BONDS, VEHICLES, controller_names, find_controller, find_model, model_names, vehicle_names
 from ..core.errors import UcritError, near_match
 from ..core.files import read_text, vehicle_template, write_vehicle
 from ..core.model import Model
@@ -124,7 +124,8 @@ def template(subject: type[Model] | Model | str | os.PathLike[str], like: Model 
     model = "trailer-kinematic"
     """
     model, vehicle = resolve(subject)
-    name = subject if isinstance(subject, str) and ".py" in subject else model.model_id()
+    is_file = isinstance(subject, str) and (".py" in subject or subject.endswith(BONDS))
+    name = str(subject) if is_file else model.model_id()
     if like is not None:
         vehicle = _like(model, resolve(like)[1], like)
     elif vehicle is not None and not isinstance(subject, Model):
@@ -134,9 +135,10 @@ def template(subject: type[Model] | Model | str | os.PathLike[str], like: Model 
 
 def _model_entry(path: str, name: str) -> str:
     """Name of the model as the vehicle's own file gives it: it may be a Python file beside it."""
-    if path in vehicle_names():
+    if path in vehicle_names() or path.endswith(BONDS):
         return name
-    return str(tomllib.loads(read_text(type(VEHICLES)(path)))["model"])
+    content = tomllib.loads(read_text(type(VEHICLES)(path)))
+    return name if "graph" in content else str(content["model"])
 
 
 def _like(model: type[Model], other: Model | None, name: Model | str) -> Model:

@@ -33,6 +33,9 @@ class Loop:
         )
 
 
+BREAK = "a spring or an inertia between them, however small, breaks it"
+
+
 def put_together(work: Assignments) -> tuple[dict[Any, Any], list[Loop]]:
     """Return every effort and flow as an expression in states, store outputs, inputs and parameters.
 
@@ -73,7 +76,7 @@ def _solve_loop(graph: Graph, reads: Any, equations: dict[Any, Any]) -> tuple[di
     names = tuple(str(e) for e in inside if e.kind not in ("0", "1")) or tuple(str(e) for e in inside)
     found, linear = _solution(residuals, cut)
     if found is None:
-        why = "its equations contradict each other" if linear else "its laws are not linear"
+        why = "its equations contradict each other" if linear else "its laws are not linear; " + BREAK
         raise ModelError(
             f"algebraic loop through bonds {', '.join(map(str, bonds))} ({', '.join(names)}) cannot be solved: {why}"
         )

@@ -176,10 +176,9 @@ def causality(graph: Graph) -> Causality:
         if element.kind in ("Se", "Sf"):
             _demand(work, element)
     for kinds, reason in ((STORES, STORE), (("R",), RESISTANCE)):
-        for element in graph.elements:
-            if element.kind in kinds:
-                for bond in graph.bonds_at[element.name]:
-                    _prefer(work, element, bond, _wish(element), reason)
+        for element in sorted((x for x in graph.elements if x.kind in kinds), key=_patience):
+            for bond in graph.bonds_at[element.name]:
+                _prefer(work, element, bond, _wish(element), reason)
     for bond in graph.bonds:
         _prefer(work, graph.by_name[bond.tail], bond, False, REST)
     return Causality(graph, tuple(work.strokes[b.number] for b in graph.bonds), tuple(work.steps))
@@ -197,6 +196,17 @@ def _prefer(work: _Work, element: Element, bond: Bond, effort_in: bool, reason: 
         work.choose(element, bond, effort_in, reason)
     except _ConflictError:
         work.choose(element, bond, not effort_in, reason)
+
+
+def _patience(element: Element) -> int:
+    """Tell whose turn it is: laws that are not linear can perhaps not be turned round, so that they have their way.
+
+    A store's that gives momentum or displacement has it in derivative causality, hence comes last.
+    """
+    law = element.law
+    if law is None or law.coefficients is not None:
+        return 1
+    return 2 if law.gives in ("momentum", "displacement") else 0
 
 
 def _wish(element: Element) -> bool:

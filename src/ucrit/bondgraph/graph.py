@@ -147,6 +147,8 @@ def _bond_faults(element: Element, bonds: tuple[Bond, ...]) -> Iterator[str]:
         heads = sum(b.head == element.name for b in bonds)
         if len(bonds) != 2 or heads != 1:
             yield f": one bond must lead to it and one away from it, it has bonds {numbers}"
+        if element.law is not None and element.law.expressions[0].is_zero:
+            yield ": its ratio is zero, so that it would pass on nothing; leave it out"
     elif element.kind not in JUNCTIONS:
         ports = element.law.ports if element.law else 1
         if len(bonds) != ports:

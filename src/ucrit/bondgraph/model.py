@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Any
 
 from ..core.declare import Variable
 from ..core.errors import ModelError
+from ..core.made import made
 from ..core.model import Model, Names, call, check_methods, declared, is_current
 from .graph import Graph
 
@@ -49,6 +51,8 @@ class BondGraphModel(Model):
         from .equations import state_equations
 
         found = state_equations(_graph(self, {"u": u}), _inputs(u))
+        if not found.states:
+            raise ModelError(f"{type(self).model_id()}: no store of its bond graph has a state, so that nothing moves")
         swap = {s: getattr(x, name) for s, name in zip(found.symbols, found.states, strict=True)}
         of = dict(zip(found.states, found.tidied, strict=True))
         return [getattr(dx, name) - of[name].xreplace(swap) for name in type(self).declaration.variables]
@@ -95,25 +99,45 @@ def model_from_text(text: str, name: str = "BondGraph", where: str = "bond graph
     >>> list(model.declaration.variables)
     ['p_mass']
     """
-    from .text import read_sheet
+    from .text import declared_symbols, read_sheet
 
     sheet = read_sheet(text, where)
-    declared = {**sheet.parameters, **sheet.inputs}
-    about = {"__doc__": sheet.title or name, "text": text, "where": where}
-    return type(name, (_FromText,), {**about, **declared})
+    sheet.graph(declared_symbols(sheet))
+    return made(_stated_by, text.strip("\n") + "\n", name)  # type: ignore[no-any-return]
+
+
+def _stated_by(text: str, name: str) -> type[BondGraphModel]:
+    """Return the model of a text that has been found right."""
+    from .text import read_sheet
+
+    sheet = read_sheet(text, name)
+    stem = re.sub(r"\W", "_", name)
+    about = {"__doc__": sheet.title or name, "text": text, "called": name, "__module__": __name__}
+    cls = stem if stem.isidentifier() else f"_{stem}"
+    return type(cls, (_FromText,), {**about, **sheet.parameters, **sheet.inputs})
 
 
 class _FromText(BondGraphModel):
     """Model of a text: what it declares, and the graph read again whenever it is traced."""
 
     text = ""
-    where = "bond graph"
+    called = ""
+
+    @classmethod
+    def model_id(cls) -> str:
+        """Name of the model: the file's."""
+        return cls.called or cls.__name__
+
+    @classmethod
+    def ingredients(cls) -> dict[str, Any]:
+        """Return the name and the text, which a vehicle file can hold."""
+        return {**super().ingredients(), "graph": cls.text}
 
     def bond_graph(self, u: Any) -> Graph:
         """Return the graph of the text."""
         from .text import read_sheet
 
-        sheet = read_sheet(self.text, self.where)
+        sheet = read_sheet(self.text, self.called)
         names = {name: getattr(self, name) for name in sheet.parameters}
         return sheet.graph(names | {name: getattr(u, name) for name in sheet.inputs})
 
@@ -182,10 +206,13 @@ def _declare_states(cls: type[Model]) -> None:
         if isinstance(getattr(cls, name, None), Variable):
             continue
         if name in parts.parameters or name in parts.inputs or hasattr(Model, name):
-            raise ModelError(f"{cls.__name__}: the graph has a state '{name}', and that name is taken")
+            raise ModelError(f"{cls.model_id()}: the graph has a state '{name}', and that name is taken")
         if name not in units:
-            raise ModelError(
-                f"{cls.__name__}: the unit of {name} does not follow from the graph; declare it by state()"
+            how = (
+                "declare its numbers, 'param m [kg] default 2: mass'"
+                if issubclass(cls, _FromText)
+                else "declare it by state()"
             )
+            raise ModelError(f"{cls.model_id()}: the unit of {name} does not follow from the graph; {how}")
         what = "momentum" if name.startswith("p") else "displacement"
         setattr(cls, name, Variable(units[name], f"{what} of {element.name}", motion=element.name))

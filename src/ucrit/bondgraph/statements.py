@@ -35,8 +35,10 @@ def statements(found: StateEquations) -> Iterator[tuple[Element, Any, Any]]:
         if element.kind in JUNCTIONS:
             common, balanced = (e, f) if element.kind == "0" else (f, e)
             yield from ((element, common[0], other) for other in common[1:])
-            yield element, sp.Add(*(x for x, b in zip(balanced, bonds, strict=True) if b.head == element.name)), sp.Add(
-                *(x for x, b in zip(balanced, bonds, strict=True) if b.tail == element.name)
+            yield (
+                element,
+                sp.Add(*(x for x, b in zip(balanced, bonds, strict=True) if b.head == element.name)),
+                sp.Add(*(x for x, b in zip(balanced, bonds, strict=True) if b.tail == element.name)),
             )
             continue
         assert element.law is not None

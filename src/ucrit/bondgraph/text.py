@@ -20,8 +20,10 @@
 
 A field has a matrix, ``I body = [m, 0; 0, m]``, or laws ``effort_1 = ...; effort_2 = ...``. Laws read other elements
 as ``f.x``, ``e.x``, ``p.x``, ``q.x``, and ports of fields as ``p.body.2``. ``speed U: forward speed`` declares the
-speed, ``speed U reverse: ...`` one that may be negative. Laws with corners and branches are written with ``abs``,
-``min``, ``max`` and ``where(condition, then, otherwise)``; conditions are comparisons joined by ``and``, ``or``, ``not``.
+speed, ``speed U reverse: ...`` one that may be negative, ``speed U default 20: ...`` one with a value.
+
+Laws with corners and branches are written with ``abs``, ``min``, ``max`` and ``where(condition, then, otherwise)``;
+conditions are comparisons joined by ``and``, ``or`` and ``not``.
 """
 
 from __future__ import annotations
@@ -29,7 +31,7 @@ from __future__ import annotations
 import keyword
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from ..core.declare import Input, Parameter, param, speed
@@ -160,18 +162,12 @@ def declared_symbols(sheet: Sheet, direction: int | None = 1) -> dict[str, Any]:
 
 
 def _named(parameter: Parameter, name: str) -> Parameter:
-    from dataclasses import replace
-
     return replace(parameter, name=name)
 
 
 def _quantity(word: str, rest: str) -> tuple[str, Any]:
     if word == "speed":
-        head, colon, meaning = (part.strip() for part in rest.partition(":"))
-        name, _, reverse = head.partition(" ")
-        if not colon or reverse not in ("", "reverse"):
-            raise ModelError(f"a speed is declared by 'speed U: forward speed' or 'speed U reverse: ...', got '{rest}'")
-        return _checked(name), speed(meaning.strip(), reverse=bool(reverse))
+        return _speed(rest)
     match = PARAM.fullmatch(rest)
     if match is None:
         raise ModelError(f"a quantity is declared by '{word} m [kg]: meaning', got '{word} {rest}'")
@@ -180,16 +176,29 @@ def _quantity(word: str, rest: str) -> tuple[str, Any]:
         if bounds.strip():
             raise ModelError(f"an input has no bounds, got '{bounds.strip()}'")
         return _checked(name), Input(unit, meaning)
-    words = bounds.split()
-    values = {}
+    return _checked(name), param(unit, meaning, **_bounds(bounds, BOUNDS))
+
+
+def _speed(rest: str) -> tuple[str, Parameter]:
+    head, colon, meaning = (part.strip() for part in rest.partition(":"))
+    name, _, more = head.partition(" ")
+    reverse, more = more.startswith("reverse"), more.removeprefix("reverse")
+    if not colon or not name:
+        raise ModelError(f"a speed is declared by 'speed U: forward speed' or 'speed U reverse: ...', got '{rest}'")
+    default = _bounds(more, ("default",)).get("default")
+    return _checked(name), replace(speed(meaning, reverse=reverse), default=default)
+
+
+def _bounds(text: str, allowed: tuple[str, ...]) -> dict[str, float]:
+    words, values = text.split(), {}
     for key, value in zip(words[::2], [*words[1::2], ""], strict=False):
-        if key not in BOUNDS:
-            raise ModelError(f"there is no bound '{key}'{near_match(key, BOUNDS)}")
+        if key not in allowed:
+            raise ModelError(f"there is no bound '{key}'{near_match(key, allowed)}")
         try:
             values[key] = float(value)
         except ValueError:
             raise ModelError(f"{key} must be followed by a number, got '{value}'") from None
-    return _checked(name), param(unit, meaning, **values)
+    return values
 
 
 def _checked(name: str) -> str:

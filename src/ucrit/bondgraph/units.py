@@ -59,6 +59,7 @@ class _Units:
         self.graph = graph
         self.known = known
         self.flows: dict[int, Dimension] = {}
+        self.by: dict[int, Element] = {}
 
     def step(self) -> bool:
         """Go through all elements once; tell whether anything was found."""
@@ -69,13 +70,23 @@ class _Units:
             if element.kind in JUNCTIONS:
                 settled = [self.flows[b.number] for b in bonds if b.number in self.flows]
                 for b in bonds if settled else ():
-                    self._put(b, settled[0])
+                    self._put(b, settled[0], element)
             elif element.law is not None:
                 self._element(element, bonds)
         return len(self.flows) > before
 
-    def _put(self, bond: Bond, flow: Dimension) -> None:
-        self.flows.setdefault(bond.number, flow)
+    def _put(self, bond: Bond, flow: Dimension, element: Element) -> None:
+        known = self.flows.setdefault(bond.number, flow)
+        first = self.by.setdefault(bond.number, element)
+        if any(abs(a - b) > 1e-9 for a, b in zip(known, flow, strict=True)):
+            raise ModelError(
+                f"{element} and {first} give unlike units to the flow of bond {bond}: {flow} and {known}"
+                + "".join(
+                    f"; the law of {e} is a number without a unit, make it a parameter"
+                    for e in (element, first)
+                    if _is_bare(e)
+                )
+            )
 
     def _dimension(self, expression: Any, where: str) -> Dimension | None:
         """Return the dimension of an expression; ``None`` where it is zero or reads what is not known yet."""
@@ -105,12 +116,12 @@ class _Units:
         elif element.kind in ("Se", "Sf"):
             given = self._dimension(law.expressions[0], where)
             if given is not None:
-                self._put(bonds[0], given if element.kind == "Sf" else POWER.times(given, -1))
+                self._put(bonds[0], given if element.kind == "Sf" else POWER.times(given, -1), element)
         elif (matrix := law.coefficients) is not None:
             for k, bond in enumerate(bonds):
                 coefficient = self._dimension(matrix[k, k], where)
                 if coefficient is not None:
-                    self._put(bond, _flow_of(element.kind, law.gives, coefficient))
+                    self._put(bond, _flow_of(element.kind, law.gives, coefficient), element)
         elif law.ports == 1 and bonds[0].number not in self.flows:
             self._other_law(element, bonds[0])
 
@@ -122,7 +133,7 @@ class _Units:
                 flow = self.flows[here.number]
                 # a gyrator's e_in = r f_out; either way round the efforts and flows of the ends are exchanged
                 passed = flow.times(ratio, sign) if element.kind == "TF" else POWER.times(flow, -1).times(ratio, -1)
-                self._put(there, passed)
+                self._put(there, passed, element)
 
     def _other_law(self, element: Element, bond: Bond) -> None:
         """Try the units of what the law takes until what it gives fits: lengths or angles."""
@@ -141,7 +152,16 @@ class _Units:
             except ModelError:
                 continue
         if len(fitting) == 1:
-            self._put(bond, fitting[0])
+            self._put(bond, fitting[0], element)
+
+
+def _is_bare(element: Element) -> bool:
+    law = element.law
+    return (
+        law is not None
+        and element.kind in ("I", "C", "R")
+        and not any(x.free_symbols - set(law.taken) for x in law.expressions)
+    )
 
 
 def _flow_of(kind: str, gives: str, coefficient: Dimension) -> Dimension:

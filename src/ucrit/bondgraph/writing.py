@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from typing import Any
 
 from ..core.declare import Input, Parameter
 from ..core.errors import ModelError
@@ -32,14 +31,15 @@ def write_sheet(title: str, parameters: Mapping[str, Parameter], inputs: Mapping
     lines = [f"title {title}"] if title else []
     for name, p in parameters.items():
         if p.is_speed:
-            lines.append(f"speed {name}{'' if p.above >= 0 else ' reverse'}: {p.meaning}")
+            given = "" if p.default is None else f" default {p.default:.17g}"
+            lines.append(f"speed {name}{'' if p.above >= 0 else ' reverse'}{given}: {p.meaning}")
             continue
         bounds = [
             f"{b} {getattr(p, b):.17g}" for b in BOUNDS if getattr(p, b) is not None and math.isfinite(getattr(p, b))
         ]
         lines.append(" ".join(["param", name, f"[{p.unit}]", *bounds]) + f": {p.meaning}")
     lines += [f"input {name} [{u.unit}]: {u.meaning}" for name, u in inputs.items()]
-    return "\n".join([*lines, "", write_graph(graph)]) + "\n"
+    return "\n".join([*lines, *([""] if lines else []), write_graph(graph)]) + "\n"
 
 
 def _element_line(element: Element) -> str:

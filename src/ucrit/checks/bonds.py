@@ -29,6 +29,7 @@ MOTIONS, POINTS, SPAN = 2, 401, 2.0
 REACHES = (0.4, 0.02)
 FAULT, IMBALANCE = 1e-6, 1e-6
 
+
 def bond_graph(subject: Subject) -> str:
     """Power balances, and the state equations have the model's characteristic polynomial.
 

@@ -26,7 +26,14 @@ FUNCTIONS: dict[str, Any] = {
     name: getattr(sp, name) for name in ("sin", "cos", "tan", "asin", "atan", "atan2", "sqrt", "exp", "log")
 }
 FUNCTIONS |= {"tanh": sp.tanh, "sign": sp.sign, "abs": sp.Abs}
-LAWS: dict[str, Any] = {**FUNCTIONS, "where": sp.Piecewise, "min": sp.Min, "max": sp.Max, "length": length, "grouped": grouped}
+LAWS: dict[str, Any] = {
+    **FUNCTIONS,
+    "where": sp.Piecewise,
+    "min": sp.Min,
+    "max": sp.Max,
+    "length": length,
+    "grouped": grouped,
+}
 LAWS |= {"share": Share}
 """Functions of force laws: what depends on conditions, and what holds a plane vector or a group together."""
 RELATIONS: dict[type[ast.cmpop], Any] = {ast.Lt: sp.Lt, ast.LtE: sp.Le, ast.Gt: sp.Gt, ast.GtE: sp.Ge}
@@ -117,7 +124,6 @@ class _Reader:
             case ast.Call(func=ast.Name(id="where"), args=[_, _, _] as arguments, keywords=[]):
                 return sp.ITE(*map(self._condition, arguments))
         raise UcritError(f"{self.where} holds '{ast.unparse(node)}' where a condition such as 'a < b' is needed")
-
 
 
 def _digits(x: Any) -> tuple[int, int]:

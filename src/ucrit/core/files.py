@@ -10,7 +10,8 @@
     m = 1400             # a number is in the parameter's SI unit
     U = "100 km/h"       # a text carries its own
 
-Tolerances stand beside values, see `ucrit.core.tolerances`.
+Tolerances stand beside values, see `ucrit.core.tolerances`. With ``graph``, a bond graph as text, ``model`` is a name
+for what it states.
 """
 
 from __future__ import annotations
@@ -26,7 +27,7 @@ from .part import Part
 from .tolerances import read_tolerances, write_correlations
 
 TEXTS = ("name", "source", "note")
-KEYS = ("model", *TEXTS, "controllers", "parts", "parameters", "correlations")
+KEYS = ("model", "graph", *TEXTS, "controllers", "parts", "parameters", "correlations")
 
 
 class Find(NamedTuple):
@@ -40,11 +41,14 @@ class Find(NamedTuple):
         Gives the law of a name, of the kind that a slot takes.
     controlled
         Gives a model under the control of some controllers.
+    graph
+        Gives the model that a bond graph's text states, for a name and where the text stands.
     """
 
     model: Callable[[str], type[Model]]
     part: Callable[[str, type[Part]], type[Part]]
     controlled: Callable[[type[Model], tuple[str, ...]], type[Model]]
+    graph: Callable[[str, str, str], type[Model]]
 
 
 def read_text(path: Path) -> str:
@@ -95,14 +99,15 @@ def parse_vehicle(
     for key in content:
         if key not in KEYS:
             raise UcritError(f"{where}: there is no entry '{key}'{near_match(key, KEYS)}")
-    for key in ("model", *TEXTS):
+    for key in ("model", "graph", *TEXTS):
         if not isinstance(content.get(key, ""), str):
             raise UcritError(f"{where}: {key} must be a text in quotes, got {content[key]!r}")
     parameters = content.get("parameters")
     if "model" not in content or not isinstance(parameters, dict):
         raise UcritError(f'{where}: a vehicle file needs model = "..." and a [parameters] table')
     try:
-        model = find.model(content["model"])
+        name = content["model"]
+        model = find.graph(content["graph"], name, "graph") if "graph" in content else find.model(name)
         model = model.fitted(**_laws(model, content.get("parts", {}), find.part))
         model = find.controlled(model, _controllers(content.get("controllers", [])))
         parameters, tolerances = read_tolerances(parameters, content.get("correlations", {}), model)
@@ -151,7 +156,9 @@ def write_vehicle(vehicle: Model, model: str | None = None) -> str:
 def vehicle_template(model: type[Model], name: str | None = None, vehicle: Model | None = None) -> str:
     """Return the text of a vehicle file for ``model``; without a vehicle its values are left to fill in."""
     info = vehicle.info if vehicle else None
-    made_of = {**model.ingredients(), **({"model": name} if name else {})}
+    made_of = model.ingredients()
+    if name and name != made_of["model"]:
+        made_of = {key: value for key, value in made_of.items() if key != "graph"} | {"model": name}
     lines = [
         f"# {model.title()}",
         f"model = {_quoted(made_of['model'])}",
@@ -160,6 +167,8 @@ def vehicle_template(model: type[Model], name: str | None = None, vehicle: Model
     ]
     if info and info.note:
         lines.append(f"note = {_quoted(info.note)}")
+    if "graph" in made_of:
+        lines.append(f"graph = {_block(made_of['graph'])}")
     if "controllers" in made_of:
         lines.append(f"controllers = [{', '.join(map(_quoted, made_of['controllers']))}]")
     if "parts" in made_of:
@@ -175,6 +184,12 @@ def vehicle_template(model: type[Model], name: str | None = None, vehicle: Model
         lines.append(f"{left:<28} # {comment}")
     lines += write_correlations(info.tolerances) if info else []
     return "\n".join(lines) + "\n"
+
+
+def _block(text: str) -> str:
+    """Return a text of several lines as TOML, a line each."""
+    lines = [_quoted(line)[1:-1].replace("\\u0009", "\t") for line in text.strip("\n").split("\n")]
+    return '"""\n' + "\n".join(lines) + '\n"""'
 
 
 def _quoted(text: str) -> str:

@@ -101,7 +101,7 @@ def _fragment(vehicle: Model | str | os.PathLike[str] | None) -> str:
     if type(same) is not type(subject):
         model = type(subject).model_id()
         raise UcritError(
-            f"the explorer shows models, laws and tires of the catalogue; '{model}' is not made of these alone"
+            f"the explorer shows models, laws and tires of the catalogue, and bond graphs; '{model}' is made of others"
         )
     return "#" + urlencode({"toml": text})
 

@@ -9,14 +9,16 @@ from ..parameters import Name
 
 
 @click.command("bonds", short_help="Causality and state equations of a bond graph; draw it.")
-@click.argument("subject", metavar="MODEL_OR_FILE", type=Name("model", suffix=".bonds"))
+@click.argument("subject", metavar="SUBJECT", type=Name("model", "vehicle", suffix=".bonds"))
 @click.option("--draw", metavar="FILE", type=click.Path(), help="Draw the graph: .svg, .png or .pdf.")
 @click.option("--text", "as_text", is_flag=True, help="Print the graph as text, to be edited, and nothing else.")
-def command(subject: str, draw: str | None, as_text: bool) -> None:
+@click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
+def command(subject: str, draw: str | None, as_text: bool, as_json: bool) -> None:
     """Show a bond graph: elements, bonds with their causality, findings, state equations.
 
-    MODEL_OR_FILE is a model's name, a Python file with a model, or a bond graph as text (FILE.bonds). Such a file
-    is a model too: 'ucrit show', 'check' and 'new' take it, and vehicle files can name it.
+    SUBJECT is the name of a model or vehicle, a Python file with a model, a vehicle file, or a bond graph as text
+    (FILE.bonds). Such a text is a model: 'ucrit show', 'check' and 'new' take it, and vehicle files can name it;
+    with defaults for its parameters it is a vehicle too: 'ucrit analyze FILE.bonds'.
 
     \b
     Examples:
@@ -24,6 +26,7 @@ def command(subject: str, draw: str | None, as_text: bool) -> None:
       ucrit bonds trailer --draw trailer.svg
       ucrit bonds oscillator --text > mine.bonds
       ucrit bonds mine.bonds
+      ucrit bonds caravan --json
 
     Exit status: 0 done; 2 wrong input.
     """
@@ -32,11 +35,18 @@ def command(subject: str, draw: str | None, as_text: bool) -> None:
 
     if draw is not None and not draw.lower().endswith(PICTURES):
         raise UcritError(f"a drawing is written to a file ending in {', '.join(PICTURES)}, got '{draw}'")
+    if as_text and as_json:
+        raise UcritError("--text and --json both print the graph: give one of them")
     found = bonds(subject)
     if draw is not None:
         write_picture(found, draw)
     if as_text:
         click.echo(found.text, nl=False)
+        return
+    if as_json:
+        import json
+
+        click.echo(json.dumps(found.to_dict(), indent=2, allow_nan=False, ensure_ascii=False))
         return
     from ..render_bonds import show_bonds
     from ..terminal import terminal
