@@ -70,7 +70,7 @@ def test_a_model_written_as_text_is_read_back(run: Run, tmp_path: Path) -> None:
     [
         (("traler",), "ucrit: there is no model, vehicle or file 'traler'; did you mean 'trailer'?"),
         (("satellite-damped",), "ucrit: satellite-damped states no bond graph"),
-        (("navion",), "ucrit: airplane states no bond graph"),
+        (("navion",), "ucrit: airplane-longitudinal-coefficients states no bond graph"),
         (("caravan", "--json", "--text"), "ucrit: --text and --json both print the graph: give one of them"),
         (("none.bonds",), "ucrit: there is no file 'none.bonds'"),
         (("trailer", "--draw", "x.gif"), "ucrit: a drawing is written to a file ending in .png, .svg, .pdf, got"),

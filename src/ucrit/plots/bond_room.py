@@ -47,7 +47,7 @@ def places_of(graph: Graph, boxes: Boxes) -> Places:
     gaps: list[dict[tuple[int, int], float]] = [{}, {}]
     for axis, low, high, room in _needs(graph, cell, boxes):
         gaps[axis][low, high] = max(room, gaps[axis].get((low, high), 0.0))
-    for _ in range(12):
+    for _ in range(30):
         at = [_positions(len(lines), gaps[axis], LEAST[axis]) for axis, lines in enumerate((columns, rows))]
         places = {name: np.array([at[0][x], at[1][y]]) for name, (x, y) in cell.items()}
         if not _widened(graph, cell, places, boxes, gaps):
@@ -90,9 +90,9 @@ def _widened(
     """Ask for more room where a slanting bond is short or runs over a label; tell whether any was asked for."""
     asked = False
 
-    def ask(one: str, other: str, factor: float) -> None:
+    def ask(one: str, other: str, axes: tuple[int, ...], factor: float) -> None:
         nonlocal asked
-        for axis in (0, 1):
+        for axis in axes:
             low, high = sorted((cell[one][axis], cell[other][axis]))
             if low != high:
                 apart = float(abs(places[one][axis] - places[other][axis]))
@@ -102,11 +102,11 @@ def _widened(
     for bond in graph.bonds:
         tail, head, _ = ends(bond.tail, bond.head, places, boxes)
         if np.linalg.norm(head - tail) < 0.95 * REACH:
-            ask(bond.tail, bond.head, 1.12)
+            ask(bond.tail, bond.head, (0, 1), 1.12)
         for name, box in boxes.items():
             if name not in (bond.tail, bond.head) and touches(tail, head, places[name], box.half + APART / 2):
-                nearer = min((bond.tail, bond.head), key=lambda end: float(np.linalg.norm(places[end] - places[name])))
-                ask(nearer, name, 1.1)
+                for end in (bond.tail, bond.head):  # labels are wide: room is wanted to their sides
+                    ask(end, name, (0,), 1.08)
     return asked
 
 
