@@ -18,7 +18,7 @@ from ..bondgraph.graph import Graph
 Array = npt.NDArray[np.float64]
 Whole = npt.NDArray[np.int64]
 
-TRIES, ROUNDS, HOT, COLD = 2, 40, 5.0, 0.15
+TRIES, ROUNDS, HOT, COLD = 2, 50, 5.0, 0.15
 LONG, STEEP, SLANTED, BENT = 1.5, 1.2, 3.0, 1.2
 CROSSING, ON_LABEL, NARROW, CRAMPED = 14.0, 18.0, 18.0, 2.5
 ROWS = 0.5
@@ -26,7 +26,7 @@ SIGNAL = {"long": 0.15, "crossing": 0.8, "on label": 3.0}
 WIDE = np.array([1.7, 1.0], dtype=np.float32)
 """Width and height of a place on the page, about: labels are wide."""
 
-NEAR = np.array([(i, j) for i in range(-3, 4) for j in range(-3, 4)])
+NEAR = np.array([(i, j) for i in range(-2, 3) for j in range(-2, 3)])
 """Places around an element that it may be moved to."""
 
 
