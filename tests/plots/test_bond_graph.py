@@ -6,17 +6,12 @@ import numpy as np
 import pytest
 
 from ucrit import bonds, find_model, plot
-from ucrit.analyses.bonds import stating
 from ucrit.bondgraph import Graph, I, R, causality, graph_of, one
 from ucrit.plots import bond_graph as drawing
 from ucrit.plots.bond_room import ends, places_of, touches
 from ucrit.plots.bond_signals import signal_paths
 
-SHAPES = {
-    (tuple(e.kind for e in g.elements), tuple((b.tail, b.head) for b in g.bonds)): name
-    for name, g in ((name, graph_of(find_model(name))) for name in stating())
-}
-"""One name for each graph of a shape of its own."""
+SHAPES = ["car", "trailer", "caster-flexible-sidewall", "airplane-plane", "rigid-body", "satellite", "wheelset"]
 
 
 def laid_out(graph):
@@ -24,7 +19,7 @@ def laid_out(graph):
     return boxes, places_of(graph, boxes)
 
 
-@pytest.mark.parametrize("name", SHAPES.values())
+@pytest.mark.parametrize("name", SHAPES)
 def test_labels_keep_off_each_other_and_bonds_have_length(name):
     graph = graph_of(find_model(name))
     boxes, places = laid_out(graph)
@@ -40,7 +35,7 @@ def test_labels_keep_off_each_other_and_bonds_have_length(name):
             assert not touches(tail, head, places[other], boxes[other].half), f"bond {bond} on {other}"
 
 
-@pytest.mark.parametrize("name", ["car", "trailer", "caster-flexible-sidewall", "airplane-plane"])
+@pytest.mark.parametrize("name", SHAPES[:4])
 def test_plane_graphs_are_drawn_straight_and_without_crossings(name):
     graph = graph_of(find_model(name))
     boxes, places = laid_out(graph)
@@ -66,7 +61,7 @@ def test_signals_keep_off_labels():
 def test_a_drawing_is_the_same_each_time():
     from ucrit.plots import bond_layout
 
-    graph = graph_of(find_model("car"))
+    graph = graph_of(find_model("oscillator"))
     first = bond_layout.grid_places(graph)
     bond_layout._piece_places.cache_clear()
     assert bond_layout.grid_places(graph) == first
