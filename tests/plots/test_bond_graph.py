@@ -100,3 +100,11 @@ def test_the_stroke_stands_where_the_effort_acts():
 def test_names_and_numbers_can_be_left_out():
     figure = drawing.plot_bond_graph(bonds("oscillator").causality, numbers=False, names=False)
     assert sorted(text.get_text() for text in figure.axes[0].texts) == ["1", "C : $1 / k$", "I : $m$", "R : $b$"]
+
+
+def test_many_elements_at_one_junction_find_room():
+    count = 30
+    graph = Graph(one("x"), *(part for k in range(count) for part in (R(f"r{k}", 1), f"x -> r{k}")))
+    boxes, places = laid_out(graph)
+    assert len({tuple(at.round(3)) for at in places.values()}) == count + 1
+    assert all(np.isfinite(at).all() for at in places.values())

@@ -111,8 +111,7 @@ def _faults(names: list[str], left: Array, right: Array) -> dict[str, float]:
     return found
 
 
-@cache
-def _function(model: type[Model]) -> tuple[tuple[Bond, ...], list[str], Any]:
+def _made(model: type[Model]) -> tuple[tuple[Bond, ...], list[str], Any]:
     """Return the bonds, the element of each statement, and a function of states, inputs and parameters.
 
     It gives powers of bonds; energy, supplied and dissipated power; then both sides of every statement.
@@ -146,3 +145,6 @@ def _function(model: type[Model]) -> tuple[tuple[Bond, ...], list[str], Any]:
     arguments = [list(traced.states), list(traced.u), list(traced.parameters.values())]
     function = build(generate("powers", arguments, inside), "powers")
     return found.graph.bonds, [str(element) for element, *_ in stated], function
+
+
+_function: Any = cache(_made)

@@ -167,7 +167,7 @@ def _draw_signal(axes: Any, path: np.ndarray[Any, Any]) -> None:
     from matplotlib.path import Path
 
     color = style.BRANCHES[1]
-    options = {"color": color, "linewidth": 0.7, "zorder": 1}
+    options: dict[str, Any] = {"color": color, "linewidth": 0.7, "zorder": 1}
     axes.plot(*path[:-2].T, linestyle=(0, (4, 2)), **options)
     head = Path([path[-4], path[-1]])
     axes.add_patch(FancyArrowPatch(path=head, arrowstyle="-|>", mutation_scale=7, shrinkA=0, shrinkB=0, **options))

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from ..bondgraph.elements import TWO_PORTS
 from ..bondgraph.graph import Graph
 
-Array = npt.NDArray[np.float64]
+Array = npt.NDArray[np.floating]
 Whole = npt.NDArray[np.int64]
 
 TRIES, ROUNDS, HOT, COLD = 2, 50, 5.0, 0.15
@@ -88,9 +88,12 @@ def _start(count: int, bonds: Pairs) -> Whole:
     ends = np.array(bonds)
     at *= 1.3 / float(np.median(np.linalg.norm(at[ends[:, 0]] - at[ends[:, 1]], axis=1)))
     taken: list[tuple[int, int]] = []
+    reach = int(np.ceil(np.sqrt(count)))  # a square of so many places has a free one
+    around = np.array([(i, j) for i in range(-reach, reach + 1) for j in range(-reach, reach + 1)])
     for spot in at:
-        around = sorted((float(np.sum((np.rint(spot) + d - spot) ** 2)), *map(int, np.rint(spot) + d)) for d in NEAR)
-        taken.append(next((x, y) for _, x, y in around if (x, y) not in taken))
+        near = np.rint(spot).astype(np.int64) + around
+        order = np.argsort(((near - spot) ** 2).sum(axis=1), kind="stable")
+        taken.append(next((int(x), int(y)) for x, y in near[order] if (x, y) not in taken))
     return np.array(taken, dtype=np.int64)
 
 
