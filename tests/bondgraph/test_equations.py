@@ -139,6 +139,8 @@ def test_what_laws_can_read():
          "causal conflict: Se 'a' and Se 'b' ask for opposite causalities of bond 2: b -> x"),
         ((one("x"), Sf("a", 1), TF("t", 2), one("y"), Sf("b", 2), "a -> x -> t -> y", "b -> y"),
          "causal conflict: Sf 'a' and Sf 'b' ask for opposite causalities of bond 4: b -> y"),
+        ((one("x"), TF("t", 0), one("y"), R("r", 1), Se("a", 1), "a -> x -> t -> y -> r"),
+         "TF 't': its ratio is zero, so that it would pass on nothing; leave it out"),
         ((one("x"), R("r", effort=lambda v: v**3 - v), Se("a", 1), "a -> x -> r"),
          "R 'r': its law gives effort and cannot be solved for flow"),
     ],
@@ -172,3 +174,12 @@ def test_a_dependent_store_cannot_follow_an_input():
     with pytest.raises(ModelError, match=r"I 'mass' .bond 2. is in derivative causality and follows the input v"):
         state_equations(graph, (speed,))
     assert state_equations(graph).states == ()
+
+
+@pytest.mark.parametrize("order", [1, -1])
+def test_a_law_that_cannot_be_turned_round_has_its_way(order):
+    stores = [I("fast", momentum=lambda v: v + v**3), I("mass", m)][::order]
+    found = state_equations(Graph(one("x"), *stores, Se("push", F), "push -> x", "x -> fast", "x -> mass"))
+    assert found.states == ("p_mass",)
+    v = found.symbols[0] / m
+    assert sp.simplify(found.rates[0] - F * m / (m + 1 + 3 * v**2)) == 0
