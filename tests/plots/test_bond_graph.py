@@ -105,6 +105,6 @@ def test_names_and_numbers_can_be_left_out():
 def test_many_elements_at_one_junction_find_room():
     count = 30
     graph = Graph(one("x"), *(part for k in range(count) for part in (R(f"r{k}", 1), f"x -> r{k}")))
-    boxes, places = laid_out(graph)
+    _boxes, places = laid_out(graph)
     assert len({tuple(at.round(3)) for at in places.values()}) == count + 1
     assert all(np.isfinite(at).all() for at in places.values())
