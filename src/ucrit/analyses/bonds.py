@@ -17,6 +17,7 @@ from ..catalogue import BONDS, find_model, model_from_file, model_names
 from ..core.errors import UcritError, near_match
 from ..core.html import Rich
 from ..core.model import Model
+from .convert import Series, Table, Tabular
 from .simulation import Simulation
 
 Array = npt.NDArray[np.float64]
@@ -167,11 +168,13 @@ def _rows(found: Causality) -> tuple[BondRow, ...]:
 
 
 @dataclass(frozen=True)
-class PowerFlow:
+class PowerFlow(Tabular):
     """Powers along a simulated motion.
 
     Attributes
     ----------
+    vehicle
+        The vehicle that was simulated.
     times
         [s], shape (T,).
     powers
@@ -182,11 +185,26 @@ class PowerFlow:
         Given by all sources, taken by all resistances [W], shape (T,).
     """
 
+    vehicle: Model
     times: Array
     powers: Array
     energy: Array
     supplied: Array
     dissipated: Array
+
+    def table(self) -> Table:
+        """Return the powers of the bonds, the energy, and what is supplied and dissipated, over time."""
+        coords = (
+            Series("time", ("time",), self.times, "s"),
+            Series("bond", ("bond",), 1 + np.arange(self.powers.shape[1])),
+        )
+        data = (
+            Series("energy", ("time",), self.energy, "J"),
+            Series("supplied", ("time",), self.supplied, "W"),
+            Series("dissipated", ("time",), self.dissipated, "W"),
+            Series("power", ("time", "bond"), self.powers, "W"),
+        )
+        return Table("power", self.vehicle, coords, data, ("time",))
 
     @property
     def imbalance(self) -> float:
@@ -249,4 +267,4 @@ def power_flow(simulation: Simulation) -> PowerFlow:
     order = [simulation.states.index(name) for name in found.states]
     values = function(simulation.values.T[order], simulation.input_values.T, simulation.vehicle.arguments())
     table = np.array([np.broadcast_to(v, simulation.times.shape) for v in values], dtype=np.float64)
-    return PowerFlow(simulation.times, table[:-3].T, *table[-3:])
+    return PowerFlow(simulation.vehicle, simulation.times, table[:-3].T, *table[-3:])

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ..core.html import math_of, quantity, table, text, with_unit
+from ..core.html import lines, math_of, quantity, table, text, with_unit
 
 if TYPE_CHECKING:
     from .analyze import Analysis
@@ -38,7 +38,7 @@ def tabular(result: Tabular) -> str:
     rows: list[Sequence[Any]] = list(zip(*(values[:ROWS] for _, _, values in shown), strict=True))
     if count > ROWS:
         rows.append(["..."] * len(shown))
-    told = f"<pre>{text(str(result))}</pre>" if type(result).__str__ is not object.__str__ else ""
+    told = lines(str(result)) if type(result).__str__ is not object.__str__ else ""
     head = [with_unit(name, unit) for name, unit, _ in shown]
     return table(rows, head, _caption(found, count, len(columns) > COLUMNS)) + told
 
@@ -90,16 +90,26 @@ def critical_values(found: CriticalValues) -> str:
     return critical(found.values, f"Critical values of {found.parameter}: {name_of(found.vehicle)}")
 
 
-def remedies(found: Sequence[Remedy]) -> str:
-    """Return remedies, a row each."""
+def remedies(found: Sequence[Remedy], of: Analysis | None = None) -> str:
+    """Return remedies, a row each; values are rounded to the side that helps, those of an analysis to few digits."""
     rows = []
     for r in found:
-        word = "no value helps" if r.value is None else "at least" if r.value > r.present else "at most"
-        change = "" if r.value is None or not math.isfinite(r.relative) else f"{r.relative:+.1%}"
-        rows.append((r.parameter, word, quantity(r.value, r.unit), quantity(r.present, r.unit), change, r.meaning))
+        word, value = r.told() if of is None or r.value is None else advice_of(r, of)
+        change = "" if r.value is None or not math.isfinite(r.relative) else f"{r.relative:+.2g}"
+        share = f"{100 * float(change):+.3g} %" if change else ""
+        unit = "" if r.unit == "1" or r.value is None else f" {r.unit}"
+        rows.append((r.parameter, word, f"{value}{unit}", quantity(r.present, r.unit), share, r.meaning))
     if not rows:
         return "<p>nothing to remedy</p>"
     return table(rows, ("parameter", "", "value", "now", "change", "meaning"), "Remedies, each enough alone")
+
+
+def advice_of(found: Remedy, of: Analysis) -> tuple[str, str]:
+    """Return a remedy's word and value as the command line prints them."""
+    from .advice import advice
+
+    told = advice(found, of)
+    return told.word, told.text
 
 
 def verdict(found: Verdict) -> str:
@@ -149,5 +159,5 @@ def analysis(found: Analysis) -> str:
     if found.criteria is not None:
         parts.append(criteria(found.criteria))
     if helpful := [r for r in found.remedies if r.value is not None]:
-        parts.append(remedies(helpful))
+        parts.append(remedies(helpful, found))
     return "".join(parts)

@@ -257,9 +257,17 @@ class Model:
         from . import html
 
         declared = type(self).declaration.parameters.items()
-        rows = [(name, _short(self._values[name]), "" if p.unit == "1" else p.unit, p.meaning) for name, p in declared]
+        known = {t.name: str(t) for t in self.info.tolerances}
+        rows = []
+        for name, p in declared:
+            value = self._values[name]
+            shown = value if np.ndim(value) == 0 else _short(value)
+            rows.append(
+                [name, shown, "" if p.unit == "1" else p.unit, p.meaning, *([known.get(name, "")] * bool(known))]
+            )
         caption = f"{self.info.name or type(self).__name__} ({type(self).model_id()})"
-        return html.table(rows, ("parameter", "value", "unit", "meaning"), caption)
+        head = ("parameter", "value", "unit", "meaning", *(["tolerance"] * bool(known)))
+        return html.table(rows, head, caption)
 
 
 def _with_laws(cls: type[Model], laws: tuple[tuple[str, type[Part]], ...]) -> type[Model]:
