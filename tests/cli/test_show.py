@@ -73,7 +73,7 @@ def test_shows_in_a_notebook() -> None:
     assert str(found.polynomial).splitlines()[0] == "a_0 = C*U*k*(a + b)"
 
 
-def test_shows_how_well_parameters_are_known(run: Run) -> None:
+def test_shows_how_well_parameters_are_known(run) -> None:
     printed = " ".join(run("show", "caravan").stdout.split())
     assert "mass (sd 60); above 0" in printed
     assert "lateral stiffness of the hitch (from 4000 to 6000); above 0" in printed
