@@ -92,7 +92,7 @@ def _steer(axes: Any, found: Handling) -> None:
         at = part.curvature[1]
         axes.plot([at], [np.interp(at, found.curvature[near], delta[near])], "o", color=style.INK, markersize=4,
                   gid=f"{part.kind}-{after.kind}")  # fmt: skip
-    axes.locator_params(axis="x", nbins=5)
+    axes.locator_params(axis="x", nbins=4)
     axes.legend(frameon=False, fontsize=8.5, loc="upper left")
     axes.set_xlabel(f"curvature 1/{labels.math_symbol('R')} [{labels.unit_text('1/m')}]")
     axes.set_ylabel(f"steer angle {labels.math_symbol(found.steer)} [deg]")
