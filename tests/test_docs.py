@@ -2,6 +2,7 @@
 
 import re
 import sys
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -25,6 +26,15 @@ def test_links_of_a_page_lead_somewhere(page):
         path = target[0] or target[1]
         if not path.startswith("http"):
             assert (page.parent / path).exists(), f"{page.name} links to {path}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda p: str(p.relative_to(ROOT)))
+def test_no_line_is_taken_for_a_list_or_a_heading(page):
+    prose = re.sub(r"^```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.MULTILINE | re.DOTALL)
+    for before, line in pairwise(prose.splitlines()):
+        assert not re.match(r"\+ |> |=+$", line), line
+        inside = not before.strip() or re.match(r"[-*] |\d+\. | {2,}", before)
+        assert inside or not re.match(r"[-*] |\d+\. ", line), line
 
 
 def test_a_page_that_shows_something_else_fails(tmp_path):

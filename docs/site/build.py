@@ -1,8 +1,8 @@
 """Build the pages in docs, the gallery and the reference: ``python docs/site/build.py [folder]``, ``make docs``.
 
-The pages are run, as far as they or the package changed since. They are copied to a folder of their own, links between them
-adjusted, and the reference is written beside them from the declarations of models, vehicles, laws and commands. Sphinx does
-the rest; its warnings are errors.
+The pages are run, as far as they or the package changed since. They are copied to a folder of their own, links between
+them adjusted, and the reference is written beside them from the declarations of models, vehicles, laws and commands.
+Sphinx does the rest; its warnings are errors.
 """
 
 import argparse

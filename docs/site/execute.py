@@ -12,7 +12,7 @@ BLOCK = re.compile(r"^```(\w+)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 def run_page(page, folder, cache):
-    """Run the blocks of a page in a folder, one after the other; raise `AssertionError` where it shows something else."""
+    """Run the blocks of a page in a folder; raise `AssertionError` where it shows something else."""
     for kind, text in BLOCK.findall(page.read_text(encoding="utf-8")):
         named = re.match(r"# file: (\S+)\n", text)
         if named:
