@@ -29,6 +29,8 @@ LANGUAGE = re.compile(r"^(`{3,})(\w+)$", re.MULTILINE)
 FIRST = ("readme", "add-a-vehicle", "measurements")
 """Pages that stand first; the others follow by their names."""
 
+TITLES = {"readme": "Read me first <readme>"}
+
 
 def write(path, text):
     """Write a page if it is not there as it is: what has not changed is not read again."""
@@ -101,7 +103,7 @@ def index(names):
     chapters = [name for name in names if name.startswith("chapter-")]
     rest = sorted(set(names) - set(chapters) - {*FIRST, "index", "changelog"})
     menus = {
-        "Pages": [*(name for name in FIRST if name in names), *rest],
+        "Pages": [*(TITLES.get(name, name) for name in FIRST if name in names), *rest],
         "Vehicle Stability, by chapter": chapters,
         "Examples": ["gallery/index"],
         "Reference": [
