@@ -115,5 +115,5 @@ def test_what_is_not_there_is_told_in_a_sentence(tmp_path):
 def test_it_prints_and_shows():
     found = cite("bmw-320i")
     assert "    Karnopp 2004, eq. (6.17)" in str(found).splitlines()
-    assert '>vehicle bmw-320i</th>' in found._repr_html_()
+    assert ">vehicle bmw-320i</th>" in found._repr_html_()
     assert found.to_dict()["sources"][0]["works"] == ["althoff-2017"]

@@ -168,6 +168,22 @@ def test_the_numbers_shown_are_those_of_the_result(results):
     assert head[:3] == ["U [m/s]", "kind", "frequency [Hz]"]
 
 
+def test_the_remedies_of_an_analysis_are_those_of_the_command_line(results):
+    shown = results["analysis"]._repr_html_()
+    for words in ("at most", "2174 kg m^2", "-5.5 %", "9046 N m s/rad", "+130 %"):
+        assert f">{words}</td>" in shown
+    assert ">9045.09 N m s/rad</td>" in results["remedies"]._repr_html_()
+
+
+def test_sensitivities_are_shown_by_parameter(results):
+    shown = results["sensitivity"]._repr_html_()
+    (slope,) = results["sensitivity"].critical
+    assert f"<td>{slope.normalised['a']:.6g}</td>" in shown
+    data = results["sensitivity"].to_xarray()
+    assert float(data["d_critical_speed_d_a"][0]) == slope.slopes["a"]
+    assert data["d_critical_speed_d_a"].attrs["units"] == "m/s per m"
+
+
 def test_a_long_table_is_cut_with_a_word_about_it():
     many = ucrit.sweep(load("caravan"), U=np.linspace(1, 30, 1000))
     shown = many._repr_html_()

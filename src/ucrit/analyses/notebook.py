@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .limits import LimitResult
     from .modes import Mode
     from .remedies import Remedy
+    from .sensitivity import Sensitivity
     from .stability_map import StabilityMap
     from .verdict import Verdict
 
@@ -64,6 +65,18 @@ def mode(found: Mode) -> str:
     return modes([found]) + table(shares, ("state", "participation", "shape"))
 
 
+def sensitivity(found: Sensitivity) -> str:
+    """Return what one percent of each parameter does to growth and critical speeds, a row each."""
+    rows = []
+    for key, slope in found.growth.items():
+        p = float(found.vehicle.values[key])
+        speeds = [of.normalised.get(key) for of in found.critical]
+        rows.append((key, p * float(slope) / 100, *(None if s is None or math.isnan(s) else s for s in speeds)))
+    heads = [f"{of.critical.value:.4g} {of.critical.unit} [%]" for of in found.critical]
+    caption = f"Change for +1 % of each parameter: {name_of(found.vehicle)}"
+    return table(rows, ("parameter", "growth [1/s]", *heads), caption)
+
+
 def critical(found: Sequence[Critical], caption: str = "") -> str:
     """Return critical values of one parameter, a row each; with formulas where there are any."""
     formulas = any(c.closed_form for c in found)
@@ -94,9 +107,8 @@ def remedies(found: Sequence[Remedy], of: Analysis | None = None) -> str:
     """Return remedies, a row each; values are rounded to the side that helps, those of an analysis to few digits."""
     rows = []
     for r in found:
-        word, value = r.told() if of is None or r.value is None else advice_of(r, of)
-        change = "" if r.value is None or not math.isfinite(r.relative) else f"{r.relative:+.2g}"
-        share = f"{100 * float(change):+.3g} %" if change else ""
+        word, value, change = (*r.told(), r.relative) if of is None or r.value is None else advice_of(r, of)
+        share = "" if r.value is None or change is None else percent(change)
         unit = "" if r.unit == "1" or r.value is None else f" {r.unit}"
         rows.append((r.parameter, word, f"{value}{unit}", quantity(r.present, r.unit), share, r.meaning))
     if not rows:
@@ -104,12 +116,25 @@ def remedies(found: Sequence[Remedy], of: Analysis | None = None) -> str:
     return table(rows, ("parameter", "", "value", "now", "change", "meaning"), "Remedies, each enough alone")
 
 
-def advice_of(found: Remedy, of: Analysis) -> tuple[str, str]:
-    """Return a remedy's word and value as the command line prints them."""
+def percent(share: float) -> str:
+    """Return a change in percent, two digits of it.
+
+    >>> percent(1.2613), percent(-0.0544)
+    ('+130 %', '-5.4 %')
+    """
+    from .advice import decimal_text, rounded
+
+    if not math.isfinite(share):
+        return ""
+    return f"{'+' if share > 0 else ''}{decimal_text(rounded(100 * share, 2, 0))} %"
+
+
+def advice_of(found: Remedy, of: Analysis) -> tuple[str, str, float | None]:
+    """Return a remedy's word, value and relative change as the command line prints them."""
     from .advice import advice
 
     told = advice(found, of)
-    return told.word, told.text
+    return told.word, told.text, told.relative
 
 
 def verdict(found: Verdict) -> str:
