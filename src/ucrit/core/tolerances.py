@@ -74,6 +74,12 @@ class Tolerances:
         """Return the tolerance of a parameter, ``None`` where it has none."""
         return next((t for t in self.entries if t.name == name), None)
 
+    def around(self, values: Mapping[str, Any]) -> Tolerances:
+        """Return the tolerances whose range holds the parameter's value, which may have been changed since."""
+        entries = tuple(t for t in self.entries if t.low <= values[t.name] <= t.high)
+        names = {t.name for t in entries}
+        return Tolerances(entries, tuple(c for c in self.correlations if {c[0], c[1]} <= names))
+
     def groups(self) -> list[tuple[str, ...]]:
         """Return the parameters in groups that are independent of one another."""
         group = {name: {name} for name in self.names}

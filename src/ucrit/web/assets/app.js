@@ -1,5 +1,5 @@
 // The page: what is chosen, what is asked, what is drawn. All state is here and in the link; the server keeps none.
-import { Newest, Problem, ask, save } from "./ask.js";
+import { Newest, Problem, ask, request, save } from "./ask.js";
 import { dampingPlot, frequencyPlot, locusPlot, mapPlot, steady } from "./draw.js";
 import { Film } from "./film.js";
 import { readLink, write } from "./link.js";
@@ -32,7 +32,7 @@ const asides = {
   pin: new Newest("api/state", found => { s.pin.answer = found; draw(); }, sentence => { s.pin = null; problem(`The pinned design cannot be shown: ${sentence}`); draw(); }),
 };
 
-const body = (values = s.asked || s.values) => ({ ...s.subject, values, along: s.along, range: s.ranges[s.along] });
+const body = (values = s.asked || s.values) => ({ ...s.subject, values, along: s.along, range: s.ranges[s.along], units: s.units });
 
 function problem(sentence) {
   $("problem").textContent = sentence || "";
@@ -43,6 +43,19 @@ function status(text) {
   $("status").textContent = text;
   clearTimeout(status.timer);
   if (text) status.timer = setTimeout(() => { $("status").textContent = ""; }, 4000);
+}
+
+// Say what is waited for, and after a while for how many seconds.
+function wait(text) {
+  const start = Date.now();
+  return setInterval(() => {
+    const seconds = Math.floor((Date.now() - start) / 1000);
+    clearTimeout(status.timer);
+    if (!$("status").textContent.startsWith(text)) $("status").innerHTML = '<span></span> <span aria-hidden="true"></span>';
+    const [what, since] = $("status").children;
+    if (what.textContent !== text) what.textContent = text;
+    since.textContent = seconds > 2 ? `${seconds} s` : "";
+  }, 400);
 }
 
 // --- changes
@@ -153,7 +166,7 @@ function motionChoices(modes) {
 }
 
 async function loadEquations() {
-  const key = JSON.stringify([s.subject, s.values]);
+  const key = JSON.stringify([s.subject, s.values, s.units]);
   if ($("derivation").dataset.key === key) return;
   $("derivation").dataset.key = key;
   if (!$("derivation").innerHTML) $("derivation").textContent = "Deriving …";
@@ -174,7 +187,7 @@ const link = () => write({ v: s.subject.vehicle, toml: s.subject.toml, values: s
 // Show a vehicle; wanted holds what a link asks for. Throws Problem, with the page as it was.
 async function open(subject, wanted = { values: {}, pin: null }) {
   document.documentElement.setAttribute("aria-busy", "true");
-  const waiting = setTimeout(() => { $("status").textContent = "Deriving the equations …"; }, 400);
+  const waiting = wait(`Deriving the equations of ${subject.vehicle || "the vehicle file"}; they are kept for the next time …`);
   try {
     const about = await ask("api/open", subject);
     const names = about.parameters.map(p => p.name);
@@ -184,12 +197,12 @@ async function open(subject, wanted = { values: {}, pin: null }) {
     const along = wanted.along ?? about.along;
     const ranges = Object.fromEntries(about.parameters.map(p => [p.name, p.range]));
     if (wanted.from < wanted.to) ranges[along] = [wanted.from, wanted.to];
-    const request = { ...subject, along, range: ranges[along] };
+    const units = wanted.units || s.units, request = { ...subject, along, range: ranges[along], units };
     const answer = await ask("api/state", { ...request, values: { ...initial, ...wanted.values } });
     const pin = wanted.pin && { values: { ...initial, ...wanted.pin } };
     if (pin) pin.answer = await ask("api/state", { ...request, values: pin.values });
     for (const queue of [follow, ...Object.values(asides)]) queue.forget();
-    Object.assign(s, { subject, about, ranges, along, pin, asked: null, moving: null, box: null, units: wanted.units || s.units,
+    Object.assign(s, { subject, about, ranges, along, pin, asked: null, moving: null, box: null, units,
       parameters: Object.fromEntries(about.parameters.map(p => [p.name, p])),
       map: [wanted.x ?? about.map?.[0], wanted.y ?? about.map?.[1]],
       shown: wanted.disturb === undefined ? "mode" : "disturb", disturb: wanted.disturb ?? about.states[0]?.name,
@@ -200,7 +213,7 @@ async function open(subject, wanted = { values: {}, pin: null }) {
     build();
     answered(answer);
   } finally {
-    clearTimeout(waiting);
+    clearInterval(waiting);
     status("");
     document.documentElement.removeAttribute("aria-busy");
   }
@@ -212,7 +225,7 @@ function build() {
   document.title = `${about.name} – ucrit explorer`;
   $("vehicle").value = s.subject.vehicle || "";
   $("units").value = s.units;
-  $("about").textContent = [about.title, about.source && `Numbers: ${about.source}`, about.note].filter(Boolean).map(t => t.replace(/\.?\s*$/, ".")).join(" ");
+  $("about").textContent = [about.title, about.made, about.source && `Numbers: ${about.source}`, about.note].filter(Boolean).map(t => t.replace(/\.?\s*$/, ".")).join(" ");
   $("derivation").innerHTML = "";
   delete $("derivation").dataset.key;
   $("remedies").textContent = "";
@@ -229,7 +242,7 @@ function build() {
 
 function showRange() {
   const { factor, text } = shownUnit(s.parameters[s.along].unit, s.units);
-  [$("from").value, $("to").value] = s.ranges[s.along].map(v => plain(v * factor, 6));
+  for (const [i, id] of ["from", "to"].entries()) $(id).dataset.shown = $(id).value = plain(s.ranges[s.along][i] * factor, 4);
   $("along-unit").textContent = text;
 }
 
@@ -254,7 +267,7 @@ const restore = () => attempt(async () => {
 $("vehicle").addEventListener("change", () => $("vehicle").value && attempt(() => open({ vehicle: $("vehicle").value.trim() })));
 $("vehicle").addEventListener("focus", () => $("vehicle").select());
 $("units").replaceChildren(...Object.entries(SYSTEMS).map(([key, text]) => new Option(text, key)));
-$("units").addEventListener("change", () => { s.units = $("units").value; build(); for (const plot of Object.values(plots)) plot.zoom = null; answered(s.answer); });
+$("units").addEventListener("change", () => { s.units = $("units").value; build(); plots.map.zoom = null; redo(); });
 $("reset").addEventListener("click", () => { s.asked = Object.fromEntries(s.about.parameters.map(p => [p.name, p.value])); s.moving = null; follow.push(body()); });
 $("pin").addEventListener("click", () => {
   s.pin = s.pin ? null : { values: { ...s.values }, answer: s.answer };
@@ -278,7 +291,8 @@ function redo() {
 }
 $("along").addEventListener("change", () => { s.along = $("along").value; redo(); });
 for (const id of ["from", "to"]) $(id).addEventListener("change", () => {
-  const { factor } = shownUnit(s.parameters[s.along].unit, s.units), ends = ["from", "to"].map(k => Number($(k).value.replace("−", "-")) / factor);
+  const { factor } = shownUnit(s.parameters[s.along].unit, s.units), now = s.ranges[s.along];
+  const ends = ["from", "to"].map((k, i) => $(k).value === $(k).dataset.shown ? now[i] : Number($(k).value.replace("−", "-")) / factor);
   if (!(ends[0] < ends[1])) { problem("The range needs two rising numbers."); return showRange(); }
   s.ranges[s.along] = ends;
   redo();
@@ -296,7 +310,11 @@ $("motion").addEventListener("change", () => {
   settled();
 });
 $("equations").addEventListener("toggle", () => $("equations").open && loadEquations());
-$("load").addEventListener("click", () => { $("dialog-problem").textContent = ""; $("dialog").showModal(); });
+$("load").addEventListener("click", async () => { // with the present vehicle as a file, to be changed
+  $("dialog-problem").textContent = $("file").value = $("text").value = "";
+  if (s.subject) await attempt(async () => { $("text").value = await (await request("api/download", { ...body(s.values), kind: "toml" })).text(); });
+  $("dialog").showModal();
+});
 $("dialog-close").addEventListener("click", () => $("dialog").close());
 $("file").addEventListener("change", async () => { if ($("file").files[0]) $("text").value = (await $("file").files[0].slice(0, 100000).text()); });
 $("dialog-open").addEventListener("click", async () => {
@@ -308,6 +326,11 @@ $("dialog-open").addEventListener("click", async () => {
     if (!(error instanceof Problem)) throw error;
     $("dialog-problem").textContent = error.message;
   }
+});
+$("downloads").addEventListener("keydown", event => {
+  if (event.key !== "Escape") return;
+  $("downloads").open = false;
+  $("downloads").querySelector("summary").focus();
 });
 document.addEventListener("click", event => { if (!$("downloads").contains(event.target)) $("downloads").open = false; });
 addEventListener("hashchange", () => { if (!s.subject || location.hash !== link()) restore(); });

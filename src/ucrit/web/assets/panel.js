@@ -3,6 +3,11 @@ import { plain, quantity, roundStep, shownUnit } from "./units.js";
 
 const STEPS = 400;
 
+function knownWords({ known: { sd, range }, unit }, system) {
+  const say = v => quantity(v, unit, system);
+  return [sd && `standard deviation ${say(sd)}`, range && `between ${say(range[0])} and ${say(range[1])}`].filter(Boolean).join(", ");
+}
+
 export class Panel {
   // changed(name, value): a number in SI, or a text with a unit, which the server reads
   constructor(form, changed) {
@@ -19,6 +24,7 @@ export class Panel {
       <input type="text" id="n${i}" class="exact" inputmode="decimal" autocomplete="off" spellcheck="false" aria-describedby="u${i} e${i}">
       <span class="unit" id="u${i}"></span>
       <button type="button" class="undo" hidden>↺</button>
+      <p class="known" hidden></p>
       <p class="wrong" id="e${i}" role="alert"></p></div>`).join("");
     parameters.forEach((about, i) => this.row(about, this.form.children[i], ranges[about.name], i));
   }
@@ -28,6 +34,9 @@ export class Panel {
     const row = { about, element, slider, field, undo, range: [...range], unit: shownUnit(about.unit, this.system) };
     element.querySelector(".meaning").textContent = about.meaning;
     element.querySelector(".unit").textContent = row.unit.text;
+    const known = element.querySelector(".known");
+    known.hidden = !about.known;
+    if (about.known) known.textContent = knownWords(about, this.system);
     slider.setAttribute("aria-label", `${about.meaning} ${about.name}, slider`);
     field.setAttribute("aria-label", `${about.meaning} ${about.name}, exact value${row.unit.text ? " in " + row.unit.text : ""}`);
     field.title = `${about.allowed}; another unit may stand behind the number`;

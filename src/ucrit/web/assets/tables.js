@@ -33,7 +33,9 @@ export function modeRows(body, modes) {
 }
 
 export function remedyList(host, found, system, apply) {
+  const held = host.contains(document.activeElement); // a click on a remedy replaces it; the keyboard stays here
   host.replaceChildren();
+  if (held) host.focus();
   const say = text => host.append(Object.assign(document.createElement("p"), { textContent: text }));
   if (found.stable) return say("Nothing needs changing for this speed.");
   if (!found.remedies.length) return say("No change of one parameter alone makes it stable.");
