@@ -170,11 +170,16 @@ async function loadEquations() {
   if ($("derivation").dataset.key === key) return;
   $("derivation").dataset.key = key;
   if (!$("derivation").innerHTML) $("derivation").textContent = "Deriving …";
+  const waiting = wait("Deriving the formulas …");
   try {
     $("derivation").innerHTML = (await ask("api/equations", body(s.values))).html; // made by the server's own template
   } catch (error) {
     if (!(error instanceof Problem)) throw error;
     $("derivation").textContent = error.message;
+    delete $("derivation").dataset.key; // opened again, it is asked again
+  } finally {
+    clearInterval(waiting);
+    status("");
   }
 }
 
@@ -225,7 +230,7 @@ function build() {
   document.title = `${about.name} – ucrit explorer`;
   $("vehicle").value = s.subject.vehicle || "";
   $("units").value = s.units;
-  $("about").textContent = [about.title, about.made, about.source && `Numbers: ${about.source}`, about.note].filter(Boolean).map(t => t.replace(/\.?\s*$/, ".")).join(" ");
+  $("about").textContent = [about.title, about.made && about.made[0].toUpperCase() + about.made.slice(1), about.source && `Numbers: ${about.source}`, about.note].filter(Boolean).map(t => t.replace(/\.?\s*$/, ".")).join(" ");
   $("derivation").innerHTML = "";
   delete $("derivation").dataset.key;
   $("remedies").textContent = "";

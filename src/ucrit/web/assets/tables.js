@@ -27,8 +27,8 @@ export function modeRows(body, modes) {
     cell(row, `${read(mode.re)}${mode.im ? ` ± ${read(mode.im)} i` : ""}`, "n").dataset.value = `${mode.re} ${mode.im}`;
     cell(row, mode.im ? read(mode.frequency_hz) : "–", "n");
     cell(row, mode.im ? read(mode.damping_ratio, 3) : "–", "n");
-    cell(row, mode.time_to_double !== null ? `doubles in ${read(mode.time_to_double, 3)} s`
-      : mode.time_to_half !== null ? `halves in ${read(mode.time_to_half, 3)} s` : "stays", mode.re > 0 ? "grows" : "");
+    cell(row, mode.time_to_double !== null ? `doubles in ${read(mode.time_to_double, 3)}\u00a0s`
+      : mode.time_to_half !== null ? `halves in ${read(mode.time_to_half, 3)}\u00a0s` : "stays", mode.re > 0 ? "grows" : "");
   }
 }
 
