@@ -150,6 +150,16 @@ def test_tolerances_are_told_and_kept_where_they_still_hold() -> None:
     assert again(b=0.7).info.tolerances.correlations == ()
 
 
+def test_tolerances_are_told_as_a_chance(ask: Any) -> None:
+    told = ask("/api/sure", {**CARAVAN, "units": "mph", "values": {"U": 25}}).json()["sentence"]
+    found = ucrit.uncertainty(load("caravan", {"U": 25}))
+    assert f"critical speed {found.quantile(0.5) / 0.44704:.4g} mph in the middle" in told
+    assert f"unstable at 55.92 mph in {100 * found.probability(25):.3g} % of all" in told
+    assert ask("/api/sure", {"vehicle": "wheelset"}).json() == {"sentence": ""}
+    outside = {"values": {name: 5 * load("caravan").values[name] for name in ("b", "k", "c")}}
+    assert "standard" not in ask("/api/sure", {**CARAVAN, **outside}).json()["sentence"]
+
+
 def test_laws_and_controllers_are_told() -> None:
     assert answers.opened(load("caravan-on-brush-tires"), {})["made"] == "the axle's tires: brush"
     assert "controllers: wheel-slip-control, stab" in answers.opened(load("car-with-stability-control"), {})["made"]

@@ -14,6 +14,7 @@ from ..analyses.listing import listing
 from ..analyses.locus import Locus, locus
 from ..analyses.remedies import Remedy
 from ..analyses.stability_map import stability_map
+from ..analyses.uncertainty import uncertainty
 from ..analyses.wording import describe, speed_text
 from ..core.errors import UcritError, near_match
 from ..plots.branches import marks, upper, view
@@ -213,6 +214,18 @@ def _remedy(r: Remedy, found: Analysis) -> Answer:
         "value": r.value if exact else float(told.text),
         "change": percent(math.inf if told.relative is None else told.relative),
     }
+
+
+def sure(vehicle: Model, body: Mapping[str, Any]) -> Answer:
+    """Return what the tolerances that still hold mean for the critical speed, in a sentence; empty without any."""
+    say, speed = say_speed(body), type(vehicle).declaration.speed
+    known = vehicle.info.tolerances.around(vehicle.values)
+    if not known or speed is None:
+        return {"sentence": ""}
+    now = abs(float(vehicle.values[speed]))
+    found = uncertainty(vehicle.with_info(tolerances=known))
+    share = float(found.probability(now))
+    return {"sentence": f"With these tolerances: {found.words(say)}; unstable at {say(now)} in {100 * share:.3g} % of all."}
 
 
 def plane(vehicle: Model, body: Mapping[str, Any]) -> Answer:

@@ -45,6 +45,7 @@ QUICK: dict[str, Callable[[Model, Mapping[str, Any]], Any]] = {"state": answers.
 SLOW: dict[str, Callable[[Model, Mapping[str, Any]], Any]] = {
     "open": answers.opened,
     "remedies": answers.remedies,
+    "sure": answers.sure,
     "motion": motion,
     "equations": equations,
     "download": download,

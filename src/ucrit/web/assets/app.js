@@ -1,14 +1,15 @@
 // The page: what is chosen, what is asked, what is drawn. All state is here and in the link; the server keeps none.
 import { Newest, Problem, ask, request, save } from "./ask.js";
+import { fileDialog } from "./dialog.js";
 import { dampingPlot, frequencyPlot, locusPlot, mapPlot, steady } from "./draw.js";
 import { Film } from "./film.js";
 import { readLink, write } from "./link.js";
+import { $, problem, status, wait } from "./messages.js";
 import { Panel } from "./panel.js";
 import { Plot } from "./plot.js";
 import { comparison, criticalWords, legend, modeRows, remedyList } from "./tables.js";
 import { SYSTEMS, plain, shownUnit } from "./units.js";
 
-const $ = id => document.getElementById(id);
 const IDLE = 120; // ms after the last change before what is slow is asked
 
 // values: as the server confirmed them; asked: with changes that are still under way
@@ -28,35 +29,12 @@ const follow = new Newest("api/state", answered, refused);
 const asides = {
   map: new Newest("api/map", found => { map = found; drawMap(); }, sentence => { map = null; plots.map.empty(sentence); }),
   remedies: new Newest("api/remedies", found => remedyList($("remedies"), found, s.units, apply), sentence => { $("remedies").textContent = sentence; }),
+  sure: new Newest("api/sure", found => { $("sure").textContent = found.sentence; }, sentence => { $("sure").textContent = sentence; }),
   motion: new Newest("api/motion", found => film.set(found), sentence => film.refuse(sentence)),
   pin: new Newest("api/state", found => { s.pin.answer = found; draw(); }, sentence => { s.pin = null; problem(`The pinned design cannot be shown: ${sentence}`); draw(); }),
 };
 
 const body = (values = s.asked || s.values) => ({ ...s.subject, values, along: s.along, range: s.ranges[s.along], units: s.units });
-
-function problem(sentence) {
-  $("problem").textContent = sentence || "";
-  $("problem").hidden = !sentence;
-}
-
-function status(text) {
-  $("status").textContent = text;
-  clearTimeout(status.timer);
-  if (text) status.timer = setTimeout(() => { $("status").textContent = ""; }, 4000);
-}
-
-// Say what is waited for, and after a while for how many seconds.
-function wait(text) {
-  const start = Date.now();
-  return setInterval(() => {
-    const seconds = Math.floor((Date.now() - start) / 1000);
-    clearTimeout(status.timer);
-    if (!$("status").textContent.startsWith(text)) $("status").innerHTML = '<span></span> <span aria-hidden="true"></span>';
-    const [what, since] = $("status").children;
-    if (what.textContent !== text) what.textContent = text;
-    since.textContent = seconds > 2 ? `${seconds} s` : "";
-  }, 400);
-}
 
 // --- changes
 
@@ -106,6 +84,7 @@ function settled() {
   if (x && y) asides.map.push({ ...base, x, y, x_range: s.ranges[x], y_range: s.ranges[y] });
   else plots.map.empty("A map needs two parameters.");
   asides.remedies.push(base);
+  if (s.about.parameters.some(p => p.known)) asides.sure.push(base);
   askMotion();
   if ($("equations").open) loadEquations();
   history.replaceState(null, "", link());
@@ -233,7 +212,7 @@ function build() {
   $("about").textContent = [about.title, about.made && about.made[0].toUpperCase() + about.made.slice(1), about.source && `Numbers: ${about.source}`, about.note].filter(Boolean).map(t => t.replace(/\.?\s*$/, ".")).join(" ");
   $("derivation").innerHTML = "";
   delete $("derivation").dataset.key;
-  $("remedies").textContent = "";
+  $("remedies").textContent = $("sure").textContent = "";
   plots.map.empty("");
   $("pin").setAttribute("aria-pressed", String(Boolean(s.pin)));
   const options = () => about.parameters.map(p => new Option(`${p.name}, ${p.meaning}`, p.name));
@@ -315,23 +294,8 @@ $("motion").addEventListener("change", () => {
   settled();
 });
 $("equations").addEventListener("toggle", () => $("equations").open && loadEquations());
-$("load").addEventListener("click", async () => { // with the present vehicle as a file, to be changed
-  $("dialog-problem").textContent = $("file").value = $("text").value = "";
-  if (s.subject) await attempt(async () => { $("text").value = await (await request("api/download", { ...body(s.values), kind: "toml" })).text(); });
-  $("dialog").showModal();
-});
-$("dialog-close").addEventListener("click", () => $("dialog").close());
-$("file").addEventListener("change", async () => { if ($("file").files[0]) $("text").value = (await $("file").files[0].slice(0, 100000).text()); });
-$("dialog-open").addEventListener("click", async () => {
-  try {
-    await open({ toml: $("text").value });
-    $("dialog").close();
-    problem("");
-  } catch (error) {
-    if (!(error instanceof Problem)) throw error;
-    $("dialog-problem").textContent = error.message;
-  }
-});
+fileDialog(async () => s.subject ? (await request("api/download", { ...body(s.values), kind: "toml" })).text() : "",
+  text => open({ toml: text }));
 $("downloads").addEventListener("keydown", event => {
   if (event.key !== "Escape") return;
   $("downloads").open = false;
