@@ -224,8 +224,8 @@ def sure(vehicle: Model, body: Mapping[str, Any]) -> Answer:
         return {"sentence": ""}
     now = abs(float(vehicle.values[speed]))
     found = uncertainty(vehicle.with_info(tolerances=known))
-    share = float(found.probability(now))
-    return {"sentence": f"With these tolerances: {found.words(say)}; unstable at {say(now)} in {100 * share:.3g} % of all."}
+    share = f"{100 * float(found.probability(now)):.3g} %"
+    return {"sentence": f"With these tolerances: {found.words(say)}; unstable at {say(now)} in {share} of all."}
 
 
 def plane(vehicle: Model, body: Mapping[str, Any]) -> Answer:
