@@ -96,7 +96,7 @@ def _made_of(vehicle: Model) -> str:
     made, slots = type(vehicle).ingredients(), type(vehicle).declaration.slots
     told = [f"{slots[name].meaning if name in slots else name}: {law}" for name, law in made.get("parts", {}).items()]
     controllers = made.get("controllers", ())
-    return ". ".join([*told, *([f"controllers: {', '.join(controllers)}"] if controllers else [])])
+    return "; ".join([*told, *([f"controllers: {', '.join(controllers)}"] if controllers else [])])
 
 
 def _known(vehicle: Model, name: str) -> Answer | None:

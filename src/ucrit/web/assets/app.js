@@ -212,8 +212,10 @@ function build() {
   $("about").textContent = [about.title, about.made && about.made[0].toUpperCase() + about.made.slice(1), about.source && `Numbers: ${about.source}`, about.note].filter(Boolean).map(t => t.replace(/\.?\s*$/, ".")).join(" ");
   $("derivation").innerHTML = "";
   delete $("derivation").dataset.key;
-  $("remedies").textContent = $("sure").textContent = "";
-  plots.map.empty("");
+  $("sure").textContent = "";
+  $("remedies").textContent = "Computing …";
+  plots.map.empty("Computing …");
+  film.refuse("Computing …");
   $("pin").setAttribute("aria-pressed", String(Boolean(s.pin)));
   const options = () => about.parameters.map(p => new Option(`${p.name}, ${p.meaning}`, p.name));
   for (const [id, value] of [["along", s.along], ["map-x", s.map[0]], ["map-y", s.map[1]]]) {

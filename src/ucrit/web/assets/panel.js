@@ -3,8 +3,9 @@ import { plain, quantity, roundStep, shownUnit } from "./units.js";
 
 const STEPS = 400;
 
-function knownWords({ known: { sd, range }, unit }, system) {
+function knownWords({ known: { sd, range }, unit }, value, system) {
   const say = v => quantity(v, unit, system);
+  if (range && !(range[0] <= value && value <= range[1])) return `outside of the file's ${say(range[0])} to ${say(range[1])}`;
   return [sd && `standard deviation ${say(sd)}`, range && `between ${say(range[0])} and ${say(range[1])}`].filter(Boolean).join(", ");
 }
 
@@ -31,12 +32,10 @@ export class Panel {
 
   row(about, element, range, i) {
     const [slider, field] = element.querySelectorAll("input"), undo = element.querySelector("button");
-    const row = { about, element, slider, field, undo, range: [...range], unit: shownUnit(about.unit, this.system) };
+    const known = element.querySelector(".known"), row = { about, element, known, slider, field, undo, range: [...range], unit: shownUnit(about.unit, this.system) };
     element.querySelector(".meaning").textContent = about.meaning;
     element.querySelector(".unit").textContent = row.unit.text;
-    const known = element.querySelector(".known");
     known.hidden = !about.known;
-    if (about.known) known.textContent = knownWords(about, this.system);
     slider.setAttribute("aria-label", `${about.meaning} ${about.name}, slider`);
     field.setAttribute("aria-label", `${about.meaning} ${about.name}, exact value${row.unit.text ? " in " + row.unit.text : ""}`);
     field.title = `${about.allowed}; another unit may stand behind the number`;
@@ -80,6 +79,7 @@ export class Panel {
       row.slider.setAttribute("aria-valuetext", quantity(value, row.about.unit, this.system, 6));
       row.written = plain(value * row.unit.factor, 9);
       row.field.value = row.written;
+      if (row.about.known) row.known.textContent = knownWords(row.about, value, this.system);
       row.undo.hidden = value === row.about.value;
       row.element.classList.toggle("moved", value !== row.about.value);
       this.mend(row);

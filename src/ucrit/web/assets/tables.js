@@ -24,7 +24,7 @@ export function modeRows(body, modes) {
     head.scope = "row";
     head.textContent = mode.name;
     row.append(head);
-    cell(row, `${read(mode.re)}${mode.im ? ` ± ${read(mode.im)} i` : ""}`, "n").dataset.value = `${mode.re} ${mode.im}`;
+    cell(row, `${read(mode.re)}${mode.im ? ` ±\u00a0${read(mode.im)}\u00a0i` : ""}`, "n").dataset.value = `${mode.re} ${mode.im}`;
     cell(row, mode.im ? read(mode.frequency_hz) : "–", "n");
     cell(row, mode.im ? read(mode.damping_ratio, 3) : "–", "n");
     cell(row, mode.time_to_double !== null ? `doubles in ${read(mode.time_to_double, 3)}\u00a0s`
