@@ -192,6 +192,14 @@ def test_a_range_that_is_shown_in_other_units_stays_as_it_is(open_page: Open) ->
     assert low() == before
 
 
+def test_the_table_of_modes_fits_a_tablet(open_page: Open) -> None:
+    page = open_page()
+    for width in (834, 1440):
+        page.page.set_viewport_size({"width": width, "height": 900})
+        wide = page.page.locator("#modes-card .table").evaluate("e => [e.scrollWidth, e.clientWidth]")
+        assert wide[0] <= wide[1], width
+
+
 def test_the_parameters_never_cover_the_equations(open_page: Open) -> None:
     page = open_page()
     page.page.click("#equations summary")
@@ -256,6 +264,7 @@ def test_a_click_on_the_map_moves_the_vehicle(open_page: Open) -> None:
     box = page.page.locator("#map svg").bounding_box()
     page.change(lambda: page.page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.3 * box["height"]))
     values = stored(page)
+    assert page.text("#map .readout") == ""
     assert 20 < values["U"] < 30
     assert values["a"] > 6
     assert eigenvalues(page) == expected(load("caravan").with_(**values))

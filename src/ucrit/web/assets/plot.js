@@ -31,6 +31,7 @@ export class Plot {
   }
 
   set(content) {
+    if (!this.content) this.readout.textContent = "";
     this.content = content;
     this.draw();
   }
