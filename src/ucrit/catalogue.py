@@ -166,7 +166,7 @@ def read_vehicle(text: str, where: str, changes: Mapping[str, Any] | None = None
     Raises
     ------
     UcritError
-        If the text is wrong, or names a Python file or a tire property file.
+        If the text is wrong, or names a file: a model of one's own, a bond graph, tire properties.
 
     Examples
     --------
@@ -176,7 +176,7 @@ def read_vehicle(text: str, where: str, changes: Mapping[str, Any] | None = None
     """
 
     def model(name: str) -> type[Model]:
-        if ".py" in name:
+        if name.replace("_", "-") not in model_names() and ("." in name or "/" in name):
             raise UcritError(f"'{name}' is a file; name a model of the catalogue here")
         return find_model(name)
 

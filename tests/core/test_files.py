@@ -122,3 +122,12 @@ def test_binary_files_are_not_text(tmp_path):
     (tmp_path / "x.toml").write_bytes(b"\xff\xfe\x00\x01")
     with pytest.raises(UcritError, match="not a text file"):
         load(tmp_path / "x.toml")
+
+
+def test_a_byte_order_mark_is_not_part_of_the_file(tmp_path):
+    text = 'model = "trailer-kinematic"\n[parameters]\na = 3\nb = 0.5\nU = 20\n'
+    (tmp_path / "x.toml").write_text(text, encoding="utf-8-sig")
+    assert load(tmp_path / "x.toml").values["a"] == 3
+    (tmp_path / "y.toml").write_text(text + "self = 1\n", encoding="utf-8")
+    with pytest.raises(UcritError, match="there is no parameter 'self'"):
+        load(tmp_path / "y.toml")

@@ -23,7 +23,7 @@ from typing import Any, NamedTuple
 from .errors import UcritError, near_match
 from .model import Model
 from .part import Part
-from .tolerances import read_tolerances, write_correlations
+from .tolerances import Tolerances, read_tolerances, write_correlations
 
 TEXTS = ("name", "source", "note")
 KEYS = ("model", *TEXTS, "controllers", "parts", "parameters", "correlations")
@@ -50,7 +50,7 @@ class Find(NamedTuple):
 def read_text(path: Path) -> str:
     """Return a file's text; raise `UcritError` where it is not there, not a file or not text."""
     try:
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")  # editors on Windows begin files with a mark
     except FileNotFoundError:
         raise UcritError(f"there is no file '{path}'") from None
     except IsADirectoryError:
@@ -165,15 +165,18 @@ def vehicle_template(model: type[Model], name: str | None = None, vehicle: Model
     if "parts" in made_of:
         lines += ["", "[parts]", *(f"{key} = {_quoted(law)}" for key, law in made_of["parts"].items())]
     lines += ["", '[parameters]   # a number is in the SI unit shown; a text carries its own: "110 km/h"']
+    known = info.tolerances.around(vehicle.values) if info and vehicle else Tolerances()
     for key, parameter in model.declaration.parameters.items():
         comment = f"{parameter.meaning} [{parameter.unit}], {parameter.allowed}"
         value = vehicle.values[key] if vehicle else parameter.default
-        tolerance = info.tolerances.of(key) if info else None
+        tolerance, former = known.of(key), info.tolerances.of(key) if info else None
+        if former and not tolerance:
+            comment += f"; its value lies outside {former.low!r} to {former.high!r}, where it was known to be"
         left = f"# {key} = "
         if value is not None:
             left = f"{key} = {tolerance.entry(float(value)) if tolerance else repr(float(value))}"
         lines.append(f"{left:<28} # {comment}")
-    lines += write_correlations(info.tolerances) if info else []
+    lines += write_correlations(known)
     return "\n".join(lines) + "\n"
 
 

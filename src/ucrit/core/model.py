@@ -123,7 +123,7 @@ class Model:
             ]
         )
 
-    def __init__(self, **values: Any) -> None:
+    def __init__(self, /, **values: Any) -> None:
         self._fill(values, {})
 
     def _fill(self, values: Mapping[str, Any], shared: Mapping[str, str]) -> None:
@@ -226,7 +226,7 @@ class Model:
             shaped.append(value)
         return tuple(shaped)
 
-    def with_(self, **changes: Any) -> Self:
+    def with_(self, /, **changes: Any) -> Self:
         """Return a copy with some parameters changed; misspelt names and impossible values are refused."""
         return self._copy(changes, {name: dim for name, dim in self._shared.items() if name not in changes})
 

@@ -94,6 +94,12 @@ class Tolerances:
             "correlations": [list(pair) for pair in self.correlations],
         }
 
+    def around(self, values: Mapping[str, Any]) -> Tolerances:
+        """Return the tolerances whose range holds the parameter's value, which may have been changed since."""
+        entries = tuple(t for t in self.entries if t.low <= values[t.name] <= t.high)
+        names = {t.name for t in entries}
+        return Tolerances(entries, tuple(c for c in self.correlations if {c[0], c[1]} <= names))
+
     def groups(self) -> list[tuple[str, ...]]:
         """Return the parameters in groups that are independent of one another."""
         group = {name: {name} for name in self.names}
