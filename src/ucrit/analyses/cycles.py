@@ -71,7 +71,7 @@ class LimitCycles(Tabular):
 
 
 def field_of(vehicle: Model, parameter: str) -> Field:
-    """Return the vehicle's motion and its slopes as functions of states (n, P) and a value of the parameter."""
+    """Return the vehicle's motion, its slopes and switches as functions of states (n, P) and a value of the parameter."""
     made, arguments = motion(type(vehicle)), list(vehicle.arguments())
     place = list(type(vehicle).declaration.parameters).index(parameter)
 
@@ -98,7 +98,11 @@ def field_of(vehicle: Model, parameter: str) -> Field:
                 return np.full((count, n, n), np.nan), np.full((count, n), np.nan)
         return found.A, found.E[..., place]
 
-    return Field(rates, slopes)
+    def switches(x: Array, value: float) -> Array:
+        given, u = changed(value)
+        return made.switches(x, np.broadcast_to(u[:, None], (len(u), x.shape[1])), given)
+
+    return Field(rates, slopes, switches)
 
 
 def limit_cycles(
