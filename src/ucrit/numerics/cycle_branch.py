@@ -165,10 +165,8 @@ def _refined(field: Field, point: Point, tolerance: float, number: int) -> Point
             return point
         at_kinks = kinks(field, point.orbit)
         mesh = orbits.adapted_mesh(point.orbit, point.metric.states, max(more, INTERVALS), at_kinks)
-        changed = point.orbit.on(mesh)
-        along = replace(point.orbit, values=point.tangent.values).on(mesh).values
-        tangent = Tangent(along, point.tangent.period, point.tangent.parameter)
-        found = settle(field, changed, tangent, point.metric)
+        tangent = orbits.carried(point.tangent, point.orbit, mesh)
+        found = settle(field, point.orbit.on(mesh), tangent, point.metric)
         if found is None:
             return point
         better = _point(field, found, point.metric, point.fold)
@@ -186,13 +184,15 @@ def _advance(field: Field, here: Point, step: float) -> tuple[Corrected | None, 
     while step > SMALLEST_STEP:
         found = settle(field, orbits.moved(here.orbit, ahead, step), ahead, metric)
         least = TURN if step > CORNER else 0.0
-        if found is not None and _cosine(found.tangent, ahead, widths, metric) > least:
+        if found is not None and _cosine(found, here.orbit, ahead, metric) > least:
             return found, step, found.steps
         step /= 2
     return None, step, 0
 
 
-def _cosine(a: Tangent, b: Tangent, widths: Array, metric: Metric) -> float:
+def _cosine(found: Corrected, orbit: Orbit, ahead: Tangent, metric: Metric) -> float:
+    """Return the cosine between the branch's direction at a solution and one given on an orbit's mesh."""
+    a, b, widths = found.tangent, orbits.carried(ahead, orbit, found.orbit.mesh), found.orbit.widths
     product = orbits.inner(a.values, b.values, widths, metric)
     product += a.period * b.period / metric.period**2 + a.parameter * b.parameter / metric.parameter**2
     return product / norm(a, widths, metric) / norm(b, widths, metric)

@@ -7,14 +7,13 @@ Non-Smooth Mechanical Systems (2004), chapter 7: the saltation matrix is then th
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from .collocation import Corrected, Field, correct
-from .orbit import PROBES, Metric, Orbit, Tangent
+from .orbit import PROBES, Metric, Orbit, Tangent, carried
 
 Array = npt.NDArray[Any]
 
@@ -106,12 +105,12 @@ def settle(field: Field, guess: Orbit, along: Tangent, metric: Metric) -> Correc
             return found
         if left:
             mesh = snapped(guess.mesh, shares)
-            directed = replace(guess, values=along.values).on(mesh).values
-            guess, along = guess.on(mesh), Tangent(directed, along.period, along.parameter)
+            guess, along = guess.on(mesh), carried(along, guess, mesh)
         better = correct(field, guess, along, metric)
         if better is None:
             return found
-        found, guess, last = better, better.orbit, left or np.inf
+        last = np.inf if found is None else left  # the first guess may have been near by chance
+        found, guess = better, better.orbit
         if field.switches is None:
             return found
     return found

@@ -135,6 +135,11 @@ def scaled(tangent: Tangent, factor: float) -> Tangent:
     return Tangent(tangent.values * factor, tangent.period * factor, tangent.parameter * factor)
 
 
+def carried(tangent: Tangent, orbit: Orbit, mesh: Array) -> Tangent:
+    """Return a direction that is given on an orbit's mesh on another one."""
+    return tangent._replace(values=replace(orbit, values=tangent.values).on(mesh).values)
+
+
 def moved(orbit: Orbit, tangent: Tangent, step: float) -> Orbit:
     """Return the orbit moved along a direction on the same mesh."""
     return replace(
