@@ -127,6 +127,25 @@ def test_a_caravan_with_a_stabiliser_is_subcritical_and_simulation_parts_at_the_
     assert found.at(0.99 * fold.value) == ()
 
 
+def test_just_below_a_fold_oscillations_die_out_and_just_above_they_stay():
+    """One simulation of both from the cycle at the fold."""
+    found = followed("caravan-with-stabiliser")
+    (fold,) = found.branches[0].folds
+    start = dict(zip(found.branches[0].states, fold.states(np.array([0.0]))[:, 0], strict=True))
+    speeds = fold.value * np.array([0.99, 1.01])
+    times = (40 + np.linspace(0, 1, 101)) * fold.period
+    late = simulate(fold.vehicle.with_(U=speeds), times[-1], start, times=times, tolerance=1e-7)
+    below, above = np.abs(late["theta"]).max(axis=-1)
+    stable = max(found.at(speeds[1]), key=lambda c: c.amplitude["theta"])
+    assert below < 0.1 * fold.amplitude["theta"]
+    assert above == pytest.approx(stable.amplitude["theta"], rel=2e-3)
+
+
+def test_a_value_outside_the_range_is_refused():
+    with pytest.raises(UcritError, match=r"nose-gear: V must be within 4\.1.* where limit cycles were followed, got 500"):
+        followed("nose-gear", k=-10).at(500)
+
+
 def test_the_worn_wheelset_hunts_between_its_flanges():
     found = followed("worn-wheelset")
     (cycle,) = found.at("162 km/h")

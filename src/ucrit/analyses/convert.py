@@ -42,13 +42,17 @@ class Series:
 
 @dataclass(frozen=True)
 class Table:
-    """A result as named arrays; ``rows`` are the dimensions that become rows of a flat table."""
+    """A result as named arrays; ``rows`` are the dimensions that become rows of a flat table.
+
+    ``beside`` are arrays with a dimension of their own, which a flat table leaves out.
+    """
 
     title: str
     vehicle: Model
     coords: tuple[Series, ...]
     data: tuple[Series, ...]
     rows: tuple[str, ...]
+    beside: tuple[Series, ...] = ()
 
     def columns(self) -> Iterator[tuple[str, str, Array]]:
         """Yield name, unit and values of each column of the flat table; dimensions not in rows spread out."""
@@ -121,7 +125,7 @@ class Tabular:
             "model": type(table.vehicle).model_id(),
             "vehicle": table.vehicle.info.name,
         }
-        return xarray.Dataset(variables(table.data), variables(table.coords), attrs)
+        return xarray.Dataset(variables((*table.data, *table.beside)), variables(table.coords), attrs)
 
     def to_csv(self, path: PathLike) -> None:
         """Write a flat table, each column headed ``name [unit]``; the file appears whole or not at all."""
@@ -156,7 +160,7 @@ class Tabular:
                 for name, value in vehicle.values.items()
             },
             "coordinates": {s.name: _entry(s) for s in table.coords},
-            "variables": {s.name: _entry(s) for s in table.data},
+            "variables": {s.name: _entry(s) for s in (*table.data, *table.beside)},
         }
         text = json.dumps(content, allow_nan=False)
         if path is not None:
@@ -170,7 +174,7 @@ class Tabular:
         from scipy.io import savemat
 
         table = self.table()
-        series = (*table.coords, *table.data)
+        series = (*table.coords, *table.data, *table.beside)
         arrays: dict[str, Any] = {s.name: s.values for s in series}
         arrays |= {s.name: s.values.astype(object) for s in series if s.values.dtype.kind == "U"}
         arrays["units"] = {s.name: s.unit for s in series if s.unit}

@@ -52,8 +52,17 @@ class LimitCycles(Tabular):
     branches: tuple[CycleBranch, ...]
 
     def at(self, value: float | str) -> tuple[Cycle, ...]:
-        """Return the cycles of all branches at a value of the parameter [SI, or text with a unit]."""
-        return tuple(cycle for branch in self.branches for cycle in branch.at(value))
+        """Return the cycles of all branches at a value of the parameter [SI, or text with a unit].
+
+        Raises `UcritError` for a value outside the range in which cycles were followed.
+        """
+        wanted = to_si(value, self.unit, self.parameter)
+        if not self.lower <= wanted <= self.upper:
+            raise UcritError(
+                f"{type(self.vehicle).model_id()}: {self.parameter} must be within {self.lower:.6g} and "
+                f"{self.upper:.6g} {self.unit}, where limit cycles were followed, got {wanted:.6g}"
+            )
+        return tuple(cycle for branch in self.branches for cycle in branch.at(wanted))
 
     @property
     def sentences(self) -> tuple[str, ...]:
