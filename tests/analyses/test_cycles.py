@@ -142,7 +142,9 @@ def test_just_below_a_fold_oscillations_die_out_and_just_above_they_stay():
 
 
 def test_a_value_outside_the_range_is_refused():
-    with pytest.raises(UcritError, match=r"nose-gear: V must be within 4\.1.* where limit cycles were followed, got 500"):
+    with pytest.raises(
+        UcritError, match=r"nose-gear: V must be within 4\.1.* where limit cycles were followed, got 500"
+    ):
         followed("nose-gear", k=-10).at(500)
 
 

@@ -50,9 +50,7 @@ def kinks(field: Field, orbit: Orbit) -> Array:
     return np.asarray(np.where(np.abs(nearest - found) < PLACED, nearest, found))
 
 
-def _roots(
-    field: Field, orbit: Orbit, which: Array, ends: tuple[Array, Array], values: tuple[Array, Array]
-) -> Array:
+def _roots(field: Field, orbit: Orbit, which: Array, ends: tuple[Array, Array], values: tuple[Array, Array]) -> Array:
     """Return zeros of switching values between places where they differ in sign, by the Illinois method."""
     assert field.switches is not None
     (low, high), (f_low, f_high) = map(np.array, ends), map(np.array, values)

@@ -9,6 +9,7 @@ import os
 import shutil
 import subprocess
 import tempfile
+import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -25,6 +26,9 @@ if TYPE_CHECKING:
 FORMATS = (".gif", ".mp4", ".html")
 WIDTH = 6.4
 """Width of the picture [in]."""
+
+TITLE = 84
+"""Letters of the title that fit into a line."""
 
 
 def animate(
@@ -177,13 +181,14 @@ def stage(scene: Scene) -> tuple[Any, Callable[[int], None]]:
     from matplotlib.ticker import MultipleLocator
 
     seen = camera(scene)
-    height = WIDTH * 0.88 * seen.height / seen.width + 0.9
-    figure = style.new_figure(WIDTH, min(height, 7.0))
+    title = textwrap.fill(caption(scene), TITLE)
+    height = min(WIDTH * 0.88 * seen.height / seen.width + 0.9, 7.0) + 0.2 * title.count("\n")
+    figure = style.new_figure(WIDTH, height)
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
     style.tidy(axes)
     axes.set_aspect("equal")
-    axes.set_title(caption(scene), fontsize=9, color=style.INK, loc="left")
+    axes.set_title(title, fontsize=9, color=style.INK, loc="left")
     axes.set_xlabel("m")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(MultipleLocator(seen.grid))
