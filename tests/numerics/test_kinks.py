@@ -1,4 +1,4 @@
-"""Limit cycles of laws with kinks: a piecewise linear oscillator whose period and multipliers are known to any digit."""
+"""Limit cycles of laws with kinks: a piecewise linear oscillator of known period and multipliers."""
 
 import mpmath as mp
 import numpy as np
@@ -42,7 +42,7 @@ def exact(p):
             there, end = half(y, beyond, within)
             return [there[0] - 1, end[0] + 1, end[1] + y]
 
-        y, beyond, within = mp.findroot(misses, (mp.mpf(1) / 2 + p, mp.mpf(2), mp.mpf(1)))
+        _, beyond, within = mp.findroot(misses, (mp.mpf(1) / 2 + p, mp.mpf(2), mp.mpf(1)))
         assert beyond > 0 < within
         return 2 * (beyond + within), mp.exp(2 * (p * within - DAMPED * beyond))
 

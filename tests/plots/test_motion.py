@@ -98,7 +98,7 @@ def test_a_name_that_could_be_markup_is_only_text(fall, tmp_path):
 
 def test_an_mp4_film_has_all_frames_and_moves(fall, tmp_path):
     animate(fall, tmp_path / "a.mp4")
-    shown = "-vf scale=64:64 -f rawvideo -pix_fmt gray -".split()
+    shown = ["-vf", "scale=64:64", "-f", "rawvideo", "-pix_fmt", "gray", "-"]
     decoded = subprocess.run([encoder(), "-i", tmp_path / "a.mp4", *shown], capture_output=True, check=True)
     frames = np.frombuffer(decoded.stdout, np.uint8).reshape(-1, 64, 64).astype(int)
     assert b"h264" in decoded.stderr

@@ -80,7 +80,7 @@ class LimitCycles(Tabular):
 
 
 def field_of(vehicle: Model, parameter: str) -> Field:
-    """Return the vehicle's motion, its slopes and switches as functions of states (n, P) and a value of the parameter."""
+    """Return motion, slopes and switches of a vehicle as functions of states (n, P) and a value of the parameter."""
     made, arguments = motion(type(vehicle)), list(vehicle.arguments())
     place = list(type(vehicle).declaration.parameters).index(parameter)
 

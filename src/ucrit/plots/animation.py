@@ -98,9 +98,9 @@ def encoder() -> str | None:
     """Return the path of an ffmpeg: the one that matplotlib is set to, else that of the extra ``film``."""
     import matplotlib as mpl
 
-    found = shutil.which(mpl.rcParams["animation.ffmpeg_path"])
-    if found:
-        return found
+    found = shutil.which(str(mpl.rcParams["animation.ffmpeg_path"]))
+    if found is not None:
+        return str(found)
     try:
         from imageio_ffmpeg import get_ffmpeg_exe
 
@@ -149,7 +149,8 @@ def _mp4(pictures: Iterator[Any], rate: int) -> bytes:
         film = Path(folder) / "film.mp4"
         command = [str(encoder()), "-loglevel", "error", *given, *even, "-movflags", "+faststart", str(film)]
         with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as run:
-            assert run.stdin is not None and run.stderr is not None
+            assert run.stdin is not None
+            assert run.stderr is not None
             with contextlib.suppress(BrokenPipeError):  # it says itself why it stopped
                 for picture in itertools.chain([first], pictures):
                     run.stdin.write(picture.tobytes())
