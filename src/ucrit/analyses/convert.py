@@ -43,13 +43,17 @@ class Series:
 
 @dataclass(frozen=True)
 class Table:
-    """A result as named arrays; ``rows`` are the dimensions that become rows of a flat table."""
+    """A result as named arrays; ``rows`` are the dimensions that become rows of a flat table.
+
+    ``beside`` are arrays with a dimension of their own, which a flat table leaves out.
+    """
 
     title: str
     vehicle: Model
     coords: tuple[Series, ...]
     data: tuple[Series, ...]
     rows: tuple[str, ...]
+    beside: tuple[Series, ...] = ()
 
     def about(self) -> dict[str, str]:
         """Return what it is: title, model, name of the vehicle."""
@@ -132,7 +136,7 @@ class Tabular:
             return {s.name: (s.dims, s.values, {"units": s.unit} if s.unit else {}) for s in group}
 
         attrs = {**table.about(), "parameters": json.dumps(table.parameters())}
-        return xarray.Dataset(variables(table.data), variables(table.coords), attrs)
+        return xarray.Dataset(variables((*table.data, *table.beside)), variables(table.coords), attrs)
 
     def to_csv(self, path: PathLike) -> None:
         """Write a flat table, each column headed ``name [unit]``; the file appears whole or not at all."""
@@ -164,7 +168,7 @@ class Tabular:
             "vehicle": vehicle.info.name,
             "parameters": table.parameters(),
             "coordinates": {s.name: _entry(s) for s in table.coords},
-            "variables": {s.name: _entry(s) for s in table.data},
+            "variables": {s.name: _entry(s) for s in (*table.data, *table.beside)},
         }
         text = json.dumps(content, allow_nan=False)
         if path is not None:
@@ -182,7 +186,7 @@ class Tabular:
         from scipy.io import savemat
 
         table = self.table()
-        series = (*table.coords, *table.data)
+        series = (*table.coords, *table.data, *table.beside)
         called = matlab_names([s.name for s in series])
         cells = {s.name: s.values.astype(object) if s.values.dtype.kind == "U" else s.values for s in series}
         arrays: dict[str, Any] = {called[name]: values for name, values in cells.items()}

@@ -95,6 +95,16 @@ def motion_facts(model: type[Model]) -> dict[str, Any]:
     }
 
 
+def motion_switch_facts(model: type[Model]) -> dict[str, Any]:
+    """Derive the values whose sign changes are kinks of the equations of motion."""
+    from .switches import switches
+
+    traced = trace(model, direction=None)
+    solved, moving = solve_for_highest(traced), {*traced.states, *traced.u}
+    found = [e for e in switches([*solved.M, *solved.f]) if e.free_symbols & moving]
+    return {"values": generate("values", [traced.states, traced.u, list(traced.parameters.values())], found)}
+
+
 def motion_event_facts(model: type[Model]) -> dict[str, Any]:
     """Derive a model's events."""
     from .event_facts import event_facts

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any, NamedTuple
@@ -63,8 +63,10 @@ class Motion:
         """Return the highest derivatives and algebraic unknowns, states along the first axis of ``w``."""
         n = int(self._facts["size"])
         with np.errstate(all="ignore"):  # laws with cases compute them all, also where they do not hold
-            entries = np.broadcast_arrays(*self._function(w, u, arguments), np.zeros(np.shape(w)[1:]))[:-1]
-        flat = np.moveaxis(np.array(entries, dtype=float), 0, -1)
+            entries = _stacked(self._function(w, u, arguments), np.shape(w)[1:])
+        if entries.ndim == 1:  # one motion alone
+            return np.linalg.solve(entries[: n * n].reshape(n, n), entries[n * n :])
+        flat = np.moveaxis(entries, 0, -1)
         M = flat[..., : n * n].reshape(*flat.shape[:-1], n, n)
         z = np.linalg.solve(M, flat[..., n * n :, None])[..., 0]
         return np.asarray(np.moveaxis(z, -1, 0))
@@ -97,7 +99,7 @@ class Motion:
         z = self.highest(w, u, arguments)
         lead = np.broadcast_shapes(w.shape[1:], u.shape[1:], *(np.shape(a) for a in arguments))
         n, m = len(self.labels), len(u)
-        residual = self._stacked("residual", (len(z), n + m + len(arguments)), lead, (w, z, u, arguments))
+        residual = self._placed("residual", (len(z), n + m + len(arguments)), lead, (w, z, u, arguments))
         M = self._mass(w, u, arguments, lead)
         dz = -np.linalg.solve(M, residual)
         rows = []
@@ -110,7 +112,7 @@ class Motion:
             rows.append(row)
         by_all = np.stack(rows, axis=-2)
         outputs = len(self.model.declaration.outputs)
-        direct = self._stacked("output", (outputs, n + len(z) + m + len(arguments)), lead, (w, z, u, arguments))
+        direct = self._placed("output", (outputs, n + len(z) + m + len(arguments)), lead, (w, z, u, arguments))
         Cw, Cz, rest = np.split(direct, [n, n + len(z)], axis=-1)
         by_output = np.concatenate([Cw, rest], axis=-1) + Cz @ dz
         (A, B, E), (C, D, F) = (np.split(whole, [n, n + m], axis=-1) for whole in (by_all, by_output))
@@ -129,7 +131,7 @@ class Motion:
             entries = self._function(w, u, arguments)[: n * n]
         return np.stack([np.broadcast_to(e, lead) for e in entries], axis=-1).reshape(*lead, n, n)
 
-    def _stacked(self, name: str, shape: tuple[int, int], lead: tuple[int, ...], groups: Any) -> Array:
+    def _placed(self, name: str, shape: tuple[int, int], lead: tuple[int, ...], groups: Any) -> Array:
         """Put slopes in their places of matrices that are zero elsewhere."""
         matrix = np.zeros((*lead, *shape))
         with np.errstate(all="ignore"):
@@ -157,6 +159,16 @@ class Motion:
     def _event_functions(self) -> tuple[Callable[..., tuple[Any, ...]], ...]:
         return tuple(build(self._event_facts[name], name) for name in ("values", "settings"))
 
+    @cached_property
+    def _switches(self) -> Callable[..., tuple[Any, ...]]:
+        facts = cached(self.model, "motion-switches", lambda: derive_facts("motion_switch", self.model))
+        return build(facts["values"], "values")
+
+    def switches(self, w: Array, u: Array, arguments: Arguments) -> Array:
+        """Return the values that choose between cases of a law, one a row: their sign changes are its kinks."""
+        with np.errstate(all="ignore"):
+            return _stacked(self._switches(w, u, arguments), np.shape(w)[1:])
+
     @property
     def event_names(self) -> tuple[str, ...]:
         """Names of the model's events."""
@@ -177,7 +189,7 @@ class Motion:
         z = self.highest(w, u, arguments)
         with np.errstate(all="ignore"):
             values = self._event_functions[0](w, z, u, arguments)
-        return np.array(np.broadcast_arrays(*values, np.zeros(np.shape(w)[1:]))[:-1], dtype=float)
+        return _stacked(values, np.shape(w)[1:])
 
     def event_changes(self, which: int) -> bool:
         """Tell whether an event sets states or inputs."""
@@ -201,7 +213,14 @@ class Motion:
         z = self.highest(np.asarray(w, dtype=float), u, arguments)
         with np.errstate(all="ignore"):
             values = self._outputs(w, z, u, arguments)
-        return np.array(np.broadcast_arrays(*values, np.zeros(np.shape(w)[1:]))[:-1], dtype=float)
+        return _stacked(values, np.shape(w)[1:])
+
+
+def _stacked(values: Sequence[Any], lead: tuple[int, ...]) -> Array:
+    """Return values that broadcast with each other and a shape as one array, the values along its first axis."""
+    if not lead and not any(map(np.ndim, values)):
+        return np.array(values, dtype=float)  # one motion alone: some ten times as fast
+    return np.array(np.broadcast_arrays(*values, np.zeros(lead))[:-1], dtype=float)
 
 
 _motion: Any = cache(Motion)
