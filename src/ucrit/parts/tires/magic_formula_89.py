@@ -15,6 +15,7 @@ from ...core.declare import param
 from ...core.errors import UcritError
 from ...core.functions import exp, grouped, length, sin, where
 from .coefficients import Coefficients, check_switches, curve
+from .magic_formula_moment import pi
 from .slip import is_zero
 from .tire import Forces, Tire
 
@@ -89,7 +90,7 @@ class MagicFormula89(Tire):
 
     def forces(self, F_z: Any, alpha: Any, kappa: Any = 0, gamma: Any = 0) -> Forces:
         """Return the forces on the wheel."""
-        c, F, degrees = self._numbers, grouped(F_z / self.F_unit), 180 / _pi(alpha)
+        c, F, degrees = self._numbers, grouped(F_z / self.F_unit), 180 / pi(alpha)
         newton = self.F_unit / 1000
         slip, lean = -alpha * degrees, gamma if is_zero(gamma) else -gamma * degrees
         if is_zero(kappa):
@@ -101,7 +102,7 @@ class MagicFormula89(Tire):
 
     def side_force(self, F_z: Any, alpha: Any) -> Any:
         """Return the side force [N] of an upright wheel that rolls freely."""
-        slip = -alpha * 180 / _pi(alpha)
+        slip = -alpha * 180 / pi(alpha)
         return self.F_unit / 1000 * self._side(self._numbers, grouped(F_z / self.F_unit), slip, 0)
 
     def _combined(self, c: Any, F: Any, alpha: Any, kappa: Any, gamma: Any) -> tuple[Any, Any]:
@@ -132,11 +133,3 @@ def _share(force: Callable[[Any], Any], slip: Any, both: Any, slope: Any, is_odd
     ahead, behind = force(full), force(-full)
     odd = where(any_slip, (ahead - behind) / 2 / full, slope) * slip
     return odd + where(any_slip, (ahead + behind) / 2 * (slip / full) ** 2, force(0))
-
-
-def _pi(angle: Any) -> Any:
-    if hasattr(angle, "free_symbols"):
-        import sympy
-
-        return sympy.pi
-    return math.pi

@@ -99,17 +99,41 @@ class TirFile:
     def law(self, *, symmetric: bool = True, **switches: Any) -> type[MagicFormula]:
         """Return the law: without the shifts of the one tire that was measured, or with them.
 
-        ``switches`` are those of `ucrit.parts.tires.magic_formula`.
+        ``switches`` are those of `ucrit.parts.tires.magic_formula`, such as ``SLIP="angle"``.
+
+        Raises
+        ------
+        UcritError
+            If there is no such switch, or it has no such place.
         """
+        for name in switches:
+            if name not in MagicFormula.switches:
+                raise UcritError(f"{self.name}: there is no switch {name}{near_match(name, MagicFormula.switches)}")
         kept = {key: value for key, value in self.values.items() if key in DIMENSIONS or USED.fullmatch(key)}
-        chosen = {"FORMULAS": self.formulas, "CAMBER": "angle" if self.formulas == "5.2" else "sine"}
+        old = self.formulas == "5.2"
+        conventions = {"CAMBER": "angle", "GROWTH": "signed"} if old else {}
+        chosen = {"FORMULAS": self.formulas, **conventions}
         shifts = {"SYMMETRIC": "yes" if symmetric else "no"}
-        file = self.name + ("" if symmetric else AS_MEASURED)
+        file = ":".join([self.name, *(() if symmetric else (AS_MEASURED,)), *(f"{k}={v}" for k, v in switches.items())])
         return MagicFormula.of({**kept, **chosen, **shifts, "FILE": file, **switches})
 
 
-AS_MEASURED = ":measured"
-"""What is put behind a file's name for the law with the shifts of the one tire that was measured."""
+AS_MEASURED = "measured"
+"""What is put behind a file's name, after a colon, for the law with the shifts of the one tire that was measured."""
+
+
+def split_name(name: str) -> tuple[str, dict[str, Any]]:
+    """Return the file of a tire's name and what is behind it, for `TirFile.law`."""
+    file, chosen = name, {}
+    while match := _BEHIND.fullmatch(file):
+        file, switch, value = match["file"], match["switch"], match["value"]
+        found: Any = int(value) if value and _WHOLE.fullmatch(value) else value
+        chosen[switch or "symmetric"] = found if switch else False
+    return file, dict(reversed(chosen.items()))
+
+
+_WHOLE = re.compile(r"[-+]?\d+")
+_BEHIND = re.compile(rf"(?P<file>.+):(?:{AS_MEASURED}|(?P<switch>\w+)=(?P<value>[\w.+-]+))")
 
 
 def read_tir(path: Path, name: str = "") -> TirFile:
