@@ -36,7 +36,8 @@ class Subject:
         """Return the subject for a class or for a vehicle."""
         if isinstance(model, Model):
             return cls(type(model), (model,), seed, published)
-        return cls(model, vehicles_of(model.model_id()), seed, published)
+        alike = (v for v in vehicles_of(model.model_id()) if v.values.keys() == model.declaration.parameters.keys())
+        return cls(model, tuple(alike), seed, published)
 
     @property
     def directions(self) -> tuple[int, ...]:
