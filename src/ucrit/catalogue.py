@@ -320,7 +320,8 @@ def load(vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = No
     vehicle
         ``"caravan"``, or the path of a file (anything ending in ``.toml`` or holding a path separator).
     changes
-        Parameter values [SI, or text with a unit] that replace those of the file.
+        Parameter values [SI, or text with a unit] that replace those of the file; and tires by the slots that take
+        them, as `tire` names them: ``{"front": "pacejka-205-60r15"}``.
     at_speed
         Value for the parameter that is the model's speed, whatever it is called.
 
@@ -342,5 +343,6 @@ def load(vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = No
     else:
         raise UcritError(f"there is no vehicle '{name}'{near_match(name, vehicle_names())}")
     folder = path.parent
-    find = Find(lambda model: find_model(model, folder), lambda law, kind: find_part(law, kind, folder), controlled)
+    part: Any = lambda law, kind: find_part(law, kind, folder)
+    find = Find(lambda model: find_model(model, folder), part, controlled, find_part)
     return parse_vehicle(read_text(path), where, find, changes, at_speed)
