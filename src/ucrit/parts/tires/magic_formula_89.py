@@ -1,6 +1,6 @@
 """Magic formula of 1989. Signs as for all tires; SI units and radians outside, its own units inside.
 
-Coefficients are constants, ``MagicFormula89.of({"a0": 1.3, ...})``. Inside, loads are in kN, angles in degrees and
+Coefficients are constants, ``MagicFormula89.of({"a0": 1.3, ...})``, or a property file's whose format is PAC89. Inside, loads are in kN, angles in degrees and
 longitudinal slip in per cent, forces come out in N and moments in N m; the parameters F_unit and L_unit carry the
 units. The formula's own slip angle has the other sign: its side force goes with it.
 """
@@ -29,8 +29,11 @@ SHIFTS = ("a9", "a10", "a12", "a13", "b9", "b10", "c12", "c13", "c16", "c17")
 class MagicFormula89(Tire):
     """Magic formula in the form of 1989, each force for itself (Bakker, Pacejka, Lidner, SAE 890087).
 
-    Side force a0 to a13, longitudinal force b0 to b10, aligning moment c0 to c17. Combined slip by similarity: each
-    force is taken at the length of both slips, the longitudinal one told as an angle as stiff as it, and has its share.
+    Side force a0 to a13, longitudinal force b0 to b10, aligning moment c0 to c17. The coefficients say nothing of
+    combined slip, and published programs each do what they like; here it is by similarity, this package's own choice:
+    each force is taken at the length of both slips, the longitudinal one told as an angle as stiff as it, and has its
+    share. A locked wheel's force so opposes its sliding only roughly.
+
     Switches among the constants: SYMMETRIC ("no", "yes": without the shifts), MOMENT (1, or -1 where the coefficients
     c are for a moment of the other sign).
     """
@@ -48,6 +51,11 @@ class MagicFormula89(Tire):
         for name in NEEDED:
             if name not in cls.constants:
                 raise UcritError(f"{cls.part_id()}: coefficient {name} is missing; needed are {', '.join(NEEDED)}")
+
+    @classmethod
+    def part_id(cls) -> str:
+        """Name of the law: that of its file, where it has one."""
+        return str(cls.constants.get("FILE", "magic-formula-89"))
 
     @property
     def _numbers(self) -> Coefficients:
