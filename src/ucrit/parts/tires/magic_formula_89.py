@@ -30,7 +30,7 @@ class MagicFormula89(Tire):
     """Magic formula in the form of 1989, each force for itself (Bakker, Pacejka, Lidner, SAE 890087).
 
     Side force a0 to a13, longitudinal force b0 to b10, aligning moment c0 to c17. The coefficients say nothing of
-    combined slip, and published programs each do what they like; here it is by similarity, this package's own choice:
+    combined slip, and published programs differ in it; here it is by similarity, which is this package's own choice:
     each force is taken at the length of both slips, the longitudinal one told as an angle as stiff as it, and has its
     share. A locked wheel's force so opposes its sliding only roughly.
 
