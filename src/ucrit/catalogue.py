@@ -7,7 +7,7 @@ import importlib.util
 import os
 import pkgutil
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -343,6 +343,5 @@ def load(vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = No
     else:
         raise UcritError(f"there is no vehicle '{name}'{near_match(name, vehicle_names())}")
     folder = path.parent
-    part: Any = lambda law, kind: find_part(law, kind, folder)
-    find = Find(lambda model: find_model(model, folder), part, controlled, find_part)
+    find = Find(partial(find_model, folder=folder), partial(find_part, folder=folder), controlled, find_part)
     return parse_vehicle(read_text(path), where, find, changes, at_speed)

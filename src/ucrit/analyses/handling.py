@@ -199,9 +199,7 @@ def _refuse_unfit(vehicle: Model, steer: str) -> None:
     if missing:
         *some, last = missing
         needs = f"{', '.join(some)} and {last}" if some else last
-        raise UcritError(
-            f"{type(vehicle).model_id()}: a handling diagram needs {needs}, which the model does not have"
-        )
+        raise UcritError(f"{type(vehicle).model_id()}: a handling diagram needs {needs}, which the model does not have")
 
 
 def _diagram(vehicle: Model, steer: str, family: SteadyFamily, speed: float) -> Handling:
