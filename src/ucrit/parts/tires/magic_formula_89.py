@@ -1,8 +1,9 @@
 """Magic formula of 1989. Signs as for all tires; SI units and radians outside, its own units inside.
 
 Coefficients are constants, ``MagicFormula89.of({"a0": 1.3, ...})``, or those of a property file whose format is PAC89.
-Inside, loads are in kN, angles in degrees and longitudinal slip in per cent, forces come out in N and moments in N m; the
-parameters F_unit and L_unit carry the units. The formula's own slip angle has the other sign: its side force goes with it.
+Inside, loads are in kN, angles in degrees and longitudinal slip in per cent, forces come out in N and moments in N m;
+the parameters F_unit and L_unit carry the units. The formula's own slip angle has the other sign: its side force goes
+with it.
 """
 
 from __future__ import annotations
