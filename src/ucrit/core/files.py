@@ -16,7 +16,7 @@ Tolerances stand beside values, see `ucrit.core.tolerances`.
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Set
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -40,11 +40,14 @@ class Find(NamedTuple):
         Gives the law of a name, of the kind that a slot takes.
     controlled
         Gives a model under the control of some controllers.
+    changed
+        Gives the law of a name among the changes, where that is not looked up as a name in the file is.
     """
 
     model: Callable[[str], type[Model]]
     part: Callable[[str, type[Part]], type[Part]]
     controlled: Callable[[type[Model], tuple[str, ...]], type[Model]]
+    changed: Callable[[str, type[Part]], type[Part]] | None = None
 
 
 def read_text(path: Path) -> str:
@@ -79,7 +82,8 @@ def parse_vehicle(
     find
         Gives models, parts and controllers of a name.
     changes
-        Parameter values that replace or complete the file's.
+        Parameter values that replace or complete the file's; and names of laws, by the slots that take them. Of the
+        file's values for such a slot those stay that the new law has too.
     at_speed
         Value for whichever parameter is the model's speed.
 
@@ -102,15 +106,28 @@ def parse_vehicle(
     if "model" not in content or not isinstance(parameters, dict):
         raise UcritError(f'{where}: a vehicle file needs model = "..." and a [parameters] table')
     try:
-        model = find.model(content["model"])
+        model, given = find.model(content["model"]), dict(changes or {})
+        fresh = {name: given.pop(name) for name in model.declaration.slots if name in given}
         model = model.fitted(**_laws(model, content.get("parts", {}), find.part))
-        model = find.controlled(model, _controllers(content.get("controllers", [])))
+        refitted = model.fitted(**_laws(model, fresh, find.changed or find.part))
+        controllers = _controllers(content.get("controllers", []))
+        model, refitted = find.controlled(model, controllers), find.controlled(refitted, controllers)
         parameters, tolerances = read_tolerances(parameters, content.get("correlations", {}), model)
-        vehicle = model(**{**parameters, **(changes or {}), **_speed(model, at_speed)})
+        gone = model.declaration.parameters.keys() - refitted.declaration.parameters.keys()
+        if gone:
+            parameters, tolerances = _without(gone, parameters, tolerances)
+        vehicle = refitted(**{**parameters, **given, **_speed(model, at_speed)})
     except UcritError as error:
         raise type(error)(f"{where}: {error}") from None
     texts = {key: content[key] for key in TEXTS if key in content}
     return vehicle.with_info(**{"name": Path(where).stem, **texts, "file": where, "tolerances": tolerances})
+
+
+def _without(gone: Set[str], parameters: Mapping[str, Any], tolerances: Tolerances) -> tuple[Any, Tolerances]:
+    """Return values and tolerances but for those of parameters that a slot's new law does not have."""
+    kept = tuple(t for t in tolerances if t.name not in gone)
+    correlated = tuple(pair for pair in tolerances.correlations if gone.isdisjoint(pair[:2]))
+    return {name: v for name, v in parameters.items() if name not in gone}, Tolerances(kept, correlated)
 
 
 def _controllers(names: Any) -> tuple[str, ...]:

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .cache import cached
-from .codegen import build
+from .codegen import build, build_for_points
 from .compiled import Arguments, Array, derive_facts
 from .model import Model
 
@@ -43,11 +43,11 @@ class Motion:
 
     @cached_property
     def _function(self) -> Callable[..., tuple[Any, ...]]:
-        return build(self._facts["motion"], "motion")
+        return build_for_points(self._facts["motion"], "motion")
 
     @cached_property
     def _outputs(self) -> Callable[..., tuple[Any, ...]]:
-        return build(self._facts["outputs"], "outputs")
+        return build_for_points(self._facts["outputs"], "outputs")
 
     @cached_property
     def _basic(self) -> Callable[..., tuple[Any, ...]]:
@@ -83,7 +83,7 @@ class Motion:
 
     @cached_property
     def _slope_functions(self) -> dict[str, Callable[..., tuple[Any, ...]]]:
-        return {name: build(facts["source"], name) for name, facts in self._slope_facts.items()}
+        return {name: build_for_points(facts["source"], name) for name, facts in self._slope_facts.items()}
 
     def slopes(self, w: Array, u: Array, arguments: Arguments) -> Slopes:
         """Return the exact linearisation at any state, for arrays of states, inputs and parameters.
