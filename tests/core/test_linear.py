@@ -13,7 +13,8 @@ from ucrit.catalogue import find_model, load, model_names
 from ucrit.core.compiled import coefficients, compiled, state_space
 from ucrit.core.errors import ModelError, UcritError
 from ucrit.core.explicit import explicit
-from ucrit.core.linear import LinearSystem, characteristic_polynomial
+from ucrit.core.characteristic import characteristic_polynomial
+from ucrit.core.linear import LinearSystem
 
 
 def system_of(matrices):

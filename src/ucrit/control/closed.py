@@ -160,6 +160,7 @@ def _close(plant: type[Model], controller: type[Controller]) -> type[Model]:
     body |= {"even": (*getattr(plant, "even", ()), *getattr(controller, "even", ()))}
     body |= {"mirror": getattr(plant, "mirror", True) and getattr(controller, "mirror", True)}
     body |= {"sides": (*getattr(plant, "sides", ()), *getattr(controller, "sides", ()))}
+    body |= {"twins": {**getattr(plant, "twins", {}), **getattr(controller, "twins", {})}}
     body |= {name: getattr(plant, name) for name in ("keeps_speed", "wheel_loads", "valid") if hasattr(plant, name)}
     if hasattr(plant, "possible") or hasattr(controller, "possible"):
         body["possible"] = _possible

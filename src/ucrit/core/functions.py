@@ -49,7 +49,9 @@ def where(condition: Any, yes: Any, no: Any) -> Any:
     if any(hasattr(argument, "free_symbols") for argument in (condition, yes, no)):
         import sympy
 
-        return sympy.Piecewise((yes, condition), (no, True))
+        if condition in (True, False):
+            return yes if condition else no
+        return sympy.Piecewise((yes, condition), (no, True), evaluate=False)  # else it is folded, which takes seconds
     return np.where(condition, yes, no)
 
 
