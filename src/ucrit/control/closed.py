@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
-from typing import Any
+from typing import Any, ClassVar
 
 from ..core.declare import Input, Output, Parameter
 from ..core.errors import ModelError, UcritError, near_match
@@ -78,7 +78,7 @@ def broken(model: type[Model], input: str) -> type[Model]:
     UcritError
         If no controller drives the input.
     """
-    plant, chain = _chain(model)
+    plant, chain = chain_of(model)
     known_names = [name for controller in chain for name in controller.drives]
     if input not in known_names:
         known = ", ".join(dict.fromkeys(known_names)) or "none"
@@ -97,6 +97,7 @@ class _Cut(Controller):
     """Cut of the loop, next to the vehicle."""
 
     through = True
+    stands_for: ClassVar[Mapping[str, str]] = {}
     _cut = ""
 
     def law(self, u: Any) -> Any:
@@ -108,6 +109,7 @@ class _Cut(Controller):
 
 def _make_cut(input: str, unit: str, meaning: str) -> type[Controller]:
     body: dict[str, Any] = {"drives": (input,), "_cut": input, "__doc__": _Cut.__doc__}
+    body["stands_for"] = {f"{input}_cut": input}
     body[f"{input}_cut"] = Input(unit, f"{meaning} where the loop is cut")
     body[f"{input}_return"] = Output(unit, f"{meaning} that comes back")
     return type("Cut", (_Cut,), body)
@@ -120,12 +122,12 @@ def _cut_of(plant: type[Model], input: str) -> type[Controller]:
 
 def driven(model: type[Model]) -> list[str]:
     """Return the inputs of the vehicle itself, without controllers, that are driven."""
-    plant, chain = _chain(model)
+    plant, chain = chain_of(model)
     names = dict.fromkeys(name for controller in chain for name in controller.drives)
     return [name for name in names if name in plant.declaration.inputs]
 
 
-def _chain(model: type[Model]) -> tuple[Any, list[type[Controller]]]:
+def chain_of(model: type[Model]) -> tuple[Any, list[type[Controller]]]:
     """Return the vehicle's own model and its controllers, the first one closed first."""
     chain: list[type[Controller]] = []
     while issubclass(model, ClosedLoop):
@@ -252,9 +254,9 @@ class ClosedLoop(Model):
             if hasattr(instance, "basic_motion"):
                 for group, values in instance.basic_motion().items():
                     given.setdefault(group, {}).update(values)
-        cut = getattr(self._controller, "_cut", None)
-        if cut in given["u"]:
-            given["u"][f"{cut}_cut"] = given["u"][cut]
+        for name, of in getattr(self._controller, "stands_for", {}).items():
+            if of in given["u"]:
+                given["u"][name] = given["u"][of]
         given["u"] = {name: value for name, value in given["u"].items() if name in declared.inputs}
         return given
 

@@ -51,7 +51,7 @@ def where(condition: Any, yes: Any, no: Any) -> Any:
 
         if condition in (True, False):
             return yes if condition else no
-        return sympy.Piecewise((yes, condition), (no, True), evaluate=False)  # else it is folded, which takes seconds
+        return sympy.Piecewise((yes, condition), (no, True))
     return np.where(condition, yes, no)
 
 
