@@ -166,7 +166,8 @@ def _close(plant: type[Model], controller: type[Controller]) -> type[Model]:
     body |= {name: getattr(plant, name) for name in ("keeps_speed", "wheel_loads", "valid") if hasattr(plant, name)}
     if hasattr(plant, "possible") or hasattr(controller, "possible"):
         body["possible"] = _possible
-    body |= {name: own for name, own in {"events": _events, "drawing": _drawing}.items() if hasattr(plant, name)}
+    body |= {"drawing": _drawing} if hasattr(plant, "drawing") else {}
+    body |= {"events": _events} if hasattr(plant, "events") or hasattr(controller, "events") else {}
     return type(f"{plant.__name__}With{controller.__name__}", (ClosedLoop,), body)
 
 
@@ -180,10 +181,15 @@ def _free(name: str, taken: Mapping[str, Any]) -> str:
 
 
 def _events(self: ClosedLoop, x: Any, dx: Any, ddx: Any, u: Any) -> Any:
-    """Return the vehicle's events."""
+    """Return the events of vehicle and controller."""
     groups = {"x": x, "dx": dx, "ddx": ddx, "u": u}
-    driven = {name: self._driven(groups)[_reaching(name)] for name in self._controller.drives}
-    return call(self._bound(self._plant).events, {**groups, "u": Names("u", {**_named(u), **driven})})
+    given, found = self._driven(groups), {}
+    if hasattr(self._plant, "events"):
+        driven = {name: given[_reaching(name)] for name in self._controller.drives}
+        found = dict(call(self._bound(self._plant).events, {**groups, "u": Names("u", {**_named(u), **driven})}))
+    if hasattr(self._controller, "events"):
+        found |= call(self._law().events, self._seen(groups, given))
+    return found
 
 
 def _drawing(self: ClosedLoop, x: Any, u: Any) -> Any:

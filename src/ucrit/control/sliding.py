@@ -13,13 +13,14 @@ from typing import Any
 
 import numpy.typing as npt
 
-from ..core.declare import Input, Output, Parameter
+from ..core.declare import Input, Output, Parameter, algebraic
 from ..core.errors import UcritError
-from ..core.functions import maximum, minimum, sign
+from ..core.events import Event, event
+from ..core.functions import maximum, minimum, sign, where
 from ..core.made import made
 from ..core.model import Model
 from .actuators import Actuator, input_of, model_of
-from .closed import ClosedLoop
+from .closed import ClosedLoop, chain_of
 from .controller import Controller
 from .copies import (
     basic_states,
@@ -98,9 +99,13 @@ class SlidingMode(Controller):
             wanted = rates(self._reference, DESIRED, *self._followed(x, u))
             drift -= sum(self._weight(label) * wanted[label] for label in self._surface)
         S = self._error(x, dx, u)
-        reach = sign(S) if self._signum else maximum(-1, minimum(1, S / self.__dict__["phi_S"]))
+        reach = self._reach(S, x, u)
         drift += self.__dict__["q_S"] * S + self.__dict__["alpha_S"] * reach
         return {name: getattr(u0, name) - drift / along(B[:, inputs.index(name)])}
+
+    def _reach(self, S: Any, x: Any, u: Any) -> Any:
+        """Return what stands for the sign of S."""
+        return maximum(-1, minimum(1, S / self.__dict__["phi_S"]))
 
     def _followed(self, x: Any, u: Any) -> tuple[dict[str, Any], Any, dict[str, Any]]:
         """Return parameters, states and inputs of the reference."""
@@ -134,6 +139,68 @@ class FollowingSlidingMode(SlidingMode):
         )
 
 
+class Jumping:
+    """What a law that jumps has besides: the side of S that it counts on, which events set.
+
+    While S is kept at zero the jump takes the value between its two that does so, the equivalent control (A. F.
+    Filippov, Differential Equations with Discontinuous Righthand Sides (1988), section 4), as long as there is one.
+    """
+
+    def _reach(self, S: Any, x: Any, u: Any) -> Any:
+        return x.jump_S
+
+    def equations(self: Any, x: Any, dx: Any, ddx: Any, u: Any) -> Any:
+        own = super().equations(x, dx, u) if self._reference is not None else ()  # type: ignore[misc]
+        kept = self._rate(x, dx, ddx) + self.__dict__["q_S"] * self._error(x, dx, u)
+        return (*own, where(u.side_S**2 > HALF, (x.jump_S - u.side_S) * self.__dict__["alpha_S"], kept))
+
+    def _rate(self: Any, x: Any, dx: Any, ddx: Any) -> Any:
+        """Return the rate of S."""
+
+        def rate(label: str) -> Any:
+            if label in self._estimated:
+                return getattr(dx, f"{plain_name(label)}_{HAT}")
+            return symbol_of(self._model, label, dx, ddx)
+
+        found = sum(self._weight(label) * rate(label) for label in self._surface)
+        if self._reference is not None:
+            found -= sum(self._weight(n) * getattr(dx, f"{plain_name(n)}_{DESIRED}") for n in self._surface)
+        return found
+
+    def events(self: Any, x: Any, dx: Any, u: Any) -> dict[str, Event]:
+        S, slides = self._error(x, dx, u), u.side_S**2 < HALF
+        return {
+            "is off S = 0": event(S**2, when="rising", from_start=True, after={"u": {"side_S": sign(S)}}),
+            "reaches S = 0 from above": event(S, when="falling", during=u.side_S > HALF, after=ON),
+            "reaches S = 0 from below": event(S, when="rising", during=u.side_S < -HALF, after=ON),
+            "leaves S = 0": event(
+                where(slides, x.jump_S**2 - 1, -1), when="rising", after={"u": {"side_S": sign(x.jump_S)}}
+            ),
+        }
+
+
+class Chattering(Jumping):
+    """The same behind an actuator: S cannot be kept at zero, the law jumps each time that S changes its sign."""
+
+    def equations(self: Any, x: Any, dx: Any, u: Any) -> Any:  # type: ignore[override]
+        own = super(Jumping, self).equations(x, dx, u) if self._reference is not None else ()  # type: ignore[misc]
+        S = self._error(x, dx, u)
+        return (*own, x.jump_S - where(u.side_S**2 > HALF, u.side_S, sign(S)))
+
+    def events(self: Any, x: Any, dx: Any, u: Any) -> dict[str, Event]:
+        S = self._error(x, dx, u)
+        return {
+            "jumps as S rises": event(S, when="rising", from_start=True, after={"u": {"side_S": 1}}),
+            "jumps as S falls": event(S, when="falling", from_start=True, after={"u": {"side_S": -1}}),
+        }
+
+
+HALF = 0.25
+"""Square of the side, and the side itself, between those that are meant: -1, 0 and 1."""
+
+ON = {"u": {"side_S": 0}}
+"""What is set where S is reached."""
+
 linear_once: Any = cache(linear_in_symbols)
 
 
@@ -150,6 +217,7 @@ def _sliding(
     own: tuple[str, ...],
     estimated: tuple[str, ...],
     signum: bool,
+    ideal: bool,
 ) -> type[SlidingMode]:
     first = state_unit(model, surface[0])
     words = [input, *surface, *(f"own {n}" for n in own), *(f"estimated {n}" for n in estimated)]
@@ -162,6 +230,9 @@ def _sliding(
         meaning = f"weight of the {state_meaning(model, label)} in the sliding variable"
         body[f"c_{plain_name(label)}"] = Parameter(ratio(first, state_unit(model, label)), meaning)
     body["q_S"] = Parameter("1/s", "rate at which a large sliding variable shrinks", at_least=0, default=0.0)
+    if signum:
+        body["side_S"] = Input("1", "side of the sliding variable that the law counts on: 1, -1, or 0 while it slides")
+        body["jump_S"] = algebraic("1", "what stands for the sign of the sliding variable")
     body["alpha_S"] = Parameter(f"{first}/s", "least rate of change of the sliding variable", at_least=0)
     if not signum:
         body["phi_S"] = Parameter(first, "width of the boundary layer of the sliding variable", above=0)
@@ -175,7 +246,8 @@ def _sliding(
         body["_reference_own"] = all_own
         body |= own_parameters(reference, all_own, DESIRED) | own_states(reference, DESIRED, "desired")
     body["S"] = Output(first, "sliding variable")
-    return type(base.__name__, (base,), body)
+    bases = (Jumping if ideal else Chattering, base) if signum else (base,)
+    return type(base.__name__, bases, body)
 
 
 def sliding(
@@ -207,14 +279,15 @@ def sliding(
     estimated
         States for which an observer's estimates are taken.
     signum
-        Whether the law jumps at ``S = 0``; else it is linear within the boundary layer ``phi_S``.
+        Whether the law jumps at ``S = 0``; else it is linear within the boundary layer ``phi_S``. In simulation S is
+        then kept at zero by the equivalent control; behind an actuator the law chatters, each jump an event.
 
     Raises
     ------
     UcritError
         If there is no such input or state, or the input does not act on S at once.
     """
-    cls = bare_model(model_of(model))
+    cls, ideal = bare_model(model_of(model)), not _behind_actuator(model_of(model))
     listed = [word.partition(" ") for word in surface]
     own = (*own, *(rest for word, _, rest in listed if word == "own"))
     estimated = (*estimated, *(rest for word, _, rest in listed if word == "estimated"))
@@ -242,8 +315,13 @@ def sliding(
             "the sliding variable must hold a state whose rate the input enters"
         )
     return made(  # type: ignore[no-any-return]
-        _sliding, cls, input, labels, follows, kept, checked_states(cls, estimated), signum
+        _sliding, cls, input, labels, follows, kept, checked_states(cls, estimated), signum, ideal
     )
+
+
+def _behind_actuator(model: type[Model]) -> bool:
+    """Tell whether an actuator stands between the law and the vehicle."""
+    return any(issubclass(controller, Actuator) for controller in chain_of(model)[1])
 
 
 def bare_model(model: type[Model]) -> type[Model]:

@@ -75,8 +75,8 @@ def slope_facts(model: type[Model], direction: int) -> dict[str, Any]:
 def motion_facts(model: type[Model]) -> dict[str, Any]:
     """Derive the non-linear equations solved for the highest derivatives, and the outputs."""
     traced = trace(model, direction=None)
-    solved = solve_for_highest(traced)
-    parameters = list(traced.parameters.values())
+    solved = solve_for_highest(traced, iterated=True)
+    parameters, z = list(traced.parameters.values()), list(traced.highest)
     conditions = constraints(traced)
     terms = [sp.Add.make_args(sp.expand(condition)) for condition in conditions]
     rates: list[tuple[str, int]] = []
@@ -91,7 +91,10 @@ def motion_facts(model: type[Model]) -> dict[str, Any]:
         "conditions": [str(condition) for condition in conditions],
         "lengths": [len(summands) for summands in terms],
         "terms": generate("terms", [traced.states, traced.u, parameters], [t for summands in terms for t in summands]),
-        "motion": generate("motion", [traced.states, traced.u, parameters], [*solved.M, *solved.f]),
+        "implicit": [z.index(symbol) for symbol in solved.implicit],
+        "motion": generate(
+            "motion", [traced.states, traced.u, parameters, z if solved.implicit else ()], [*solved.M, *solved.f]
+        ),
         "outputs": generate("outputs", [traced.states, traced.highest, traced.u, parameters], traced.outputs),
         "basic": generate("basic", [parameters], [traced.basic.get(s, 0) for s in (*traced.states, *traced.u)]),
     }
@@ -107,7 +110,7 @@ def motion_event_facts(model: type[Model]) -> dict[str, Any]:
 def motion_slope_facts(model: type[Model]) -> dict[str, Any]:
     """Derive how the residuals ``M z - f`` of the non-linear equations change with states, inputs and parameters."""
     traced = trace(model, direction=None)
-    solved, z = solve_for_highest(traced), sp.Matrix(traced.highest)
+    solved, z = solve_for_highest(traced, iterated=True), sp.Matrix(traced.highest)
     parameters = list(traced.parameters.values())
     residuals = solved.M * z - solved.f
     groups = traced.states, traced.highest, traced.u, parameters
