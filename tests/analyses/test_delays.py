@@ -17,7 +17,7 @@ class Remembering(Model):
     """X' = -k X(t - T) - l X(t - S), which two inputs stand for."""
 
     k: float = param("1/s", "share of the first", default=1.0)
-    l: float = param("1/s", "share of the second", default=0.0)  # noqa: E741
+    l: float = param("1/s", "share of the second", default=0.0)
     X = state("m", "position")
     X_1 = input("m", "position some time before")
     X_2 = input("m", "position some other time before")
@@ -38,7 +38,7 @@ def test_the_equation_with_one_delay_has_its_closed_form():
 
 def test_two_delays_that_do_not_fit_one_another():
     """The same by polynomials in exact arithmetic, from kink to kink."""
-    T, S, k, l, end = Fraction(1), Fraction(7, 10), 1, 2, Fraction(5, 2)  # noqa: E741
+    T, S, k, l, end = Fraction(1), Fraction(7, 10), 1, 2, Fraction(5, 2)
     pieces = [(Fraction(-9), Fraction(0), [Fraction(1)])]
     kinks = sorted({i * T + j * S for i in range(4) for j in range(5) if 0 < i * T + j * S < end} | {end})
 

@@ -9,10 +9,10 @@ import sympy as sp
 from sympy.polys.rings import PolyElement
 
 from ..core import typeset as to
+from ..core.characteristic import CharacteristicPolynomial
 from ..core.codegen import generate
 from ..core.errors import UcritError
 from ..core.factor import definite_sign, factors, readable, readable_ratio
-from ..core.characteristic import CharacteristicPolynomial
 from ..numerics.determinants import hurwitz_matrix
 from .implied import excluded, implied
 

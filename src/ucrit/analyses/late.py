@@ -9,7 +9,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from itertools import combinations_with_replacement
+from itertools import combinations_with_replacement, pairwise
 from typing import Any
 
 import numpy as np
@@ -32,7 +32,7 @@ CLOSE = 1e-12
 
 @dataclass(frozen=True)
 class LateInput:
-    """An input by place, the place of what it was in (states, outputs), the delay [s], and what it was before time 0."""
+    """An input by its place, the place of what it was among states and outputs, the delay [s], and its past."""
 
     place: int
     quantity: int
@@ -68,7 +68,7 @@ class Memory:
                 return lambda t: late.before(min(t - late.delay, 0.0))
             return lambda t: self._read(row, min(max(t - late.delay, lo), hi))
 
-        return [piece(a, b) for a, b in zip(ends[:-1], ends[1:], strict=True)]
+        return [piece(a, b) for a, b in pairwise(ends)]
 
     def _read(self, row: int, t: float) -> float:
         while (done := len(self.fits)) < len(self.stretches) and self.stretches[done].start <= t:

@@ -1,4 +1,4 @@
-"""Centre of percussion: the point that a blow at an input leaves at rest (Karnopp 2004, section 11.IV, Problem 11.2)."""
+"""Centre of percussion: the point that a blow at an input leaves at rest (Karnopp 2004, Problem 11.2)."""
 
 from __future__ import annotations
 

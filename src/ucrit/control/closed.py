@@ -50,6 +50,8 @@ def close(vehicle: Model, *controllers: type[Controller], **values: Any) -> Mode
     UcritError
         If a value is missing, misspelt or not allowed; see also `closed`.
     """
+    if not isinstance(vehicle, Model):
+        raise UcritError(f"close takes a vehicle; for a model without numbers take closed; got {vehicle!r}")
     model = closed(type(vehicle), *controllers)
     found = model(**{**vehicle.values, **values})
     found.__dict__["info"] = vehicle.info

@@ -23,21 +23,20 @@ class Late:
     """Name of the parameter that holds the delay [s]."""
 
 
-class _Exact(Delay):
-    """Delay as it is; the states of its approximation are kept for laws that feed them back."""
+def _law(self: Any, u: Any) -> Any:
+    return {self._input: getattr(u, f"{self._input}_late")}
 
-    def law(self, u: Any) -> Any:
-        return {self._input: getattr(u, f"{self._input}_late")}
 
-    def outputs(self, u: Any) -> Any:
-        return {f"{self._input}_demanded": getattr(u, self._input)}
+def _outputs(self: Any, u: Any) -> Any:
+    return {f"{self._input}_demanded": getattr(u, self._input)}
 
 
 def _make_exact(approximate: type[Delay], input: str, unit: str, meaning: str) -> type[Controller]:
-    body: dict[str, Any] = {"__doc__": _Exact.__doc__, "stands_for": {f"{input}_late": input}}
+    """Make a delay as it is; the states of its approximation are kept for laws that feed them back."""
+    body: dict[str, Any] = {"__doc__": "Delay as it is.", "stands_for": {f"{input}_late": input}}
     body[f"{input}_late"] = Input(unit, f"{meaning}, demanded one delay before")
     body[f"{input}_demanded"] = Output(unit, f"{meaning} that is demanded")
-    body |= {name: getattr(_Exact, name) for name in ("law", "outputs")}
+    body |= {"law": _law, "outputs": _outputs}
     return type("Exact", (approximate,), body)
 
 
@@ -49,7 +48,7 @@ def exactly_delayed(model: type[Model]) -> tuple[type[Model], list[Late]]:
         if issubclass(controller, Delay) and "stands_for" not in vars(controller):
             name = controller._input
             quantity = plant.declaration.inputs[name]
-            controller = made(_make_exact, controller, name, quantity.unit, quantity.meaning)  # noqa: PLW2901
+            controller = made(_make_exact, controller, name, quantity.unit, quantity.meaning)
             found.append(Late(f"{name}_late", f"{name}_demanded", f"T_{name}"))
         plant = closed(plant, controller)
     return (plant, found) if found else (model, [])

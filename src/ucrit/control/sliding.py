@@ -15,14 +15,15 @@ import numpy.typing as npt
 
 from ..core.declare import Input, Output, Parameter, algebraic
 from ..core.errors import UcritError
-from ..core.events import Event, event
-from ..core.functions import maximum, minimum, sign, where
+from ..core.functions import maximum, minimum
 from ..core.made import made
 from ..core.model import Model
 from .actuators import Actuator, input_of, model_of
 from .closed import ClosedLoop, chain_of
 from .controller import Controller
 from .copies import (
+    DESIRED,
+    KNOWN,
     basic_states,
     bound_parameters,
     checked_states,
@@ -30,6 +31,7 @@ from .copies import (
     linear_in_symbols,
     own_parameters,
     own_states,
+    plain_name,
     rates,
     ratio,
     state_meaning,
@@ -37,14 +39,9 @@ from .copies import (
     symbol_of,
 )
 from .feedback import HAT, Observer
+from .jumping import Jumping
 
 Array = npt.NDArray[Any]
-
-KNOWN = "known"
-"""Ending of parameters that the law has values of its own for."""
-
-DESIRED = "d"
-"""Ending of the reference's states and parameters."""
 
 
 class SlidingMode(Controller):
@@ -139,74 +136,7 @@ class FollowingSlidingMode(SlidingMode):
         )
 
 
-class Jumping:
-    """What a law that jumps has besides: the side of S that it counts on, which events set.
-
-    While S is kept at zero the jump takes the value between its two that does so, the equivalent control (A. F.
-    Filippov, Differential Equations with Discontinuous Righthand Sides (1988), section 4), as long as there is one.
-    """
-
-    def _reach(self, S: Any, x: Any, u: Any) -> Any:
-        return x.jump_S
-
-    def equations(self: Any, x: Any, dx: Any, ddx: Any, u: Any) -> Any:
-        own = super().equations(x, dx, u) if self._reference is not None else ()  # type: ignore[misc]
-        kept = self._rate(x, dx, ddx) + self.__dict__["q_S"] * self._error(x, dx, u)
-        return (*own, where(u.side_S**2 > HALF, (x.jump_S - u.side_S) * self.__dict__["alpha_S"], kept))
-
-    def _rate(self: Any, x: Any, dx: Any, ddx: Any) -> Any:
-        """Return the rate of S."""
-
-        def rate(label: str) -> Any:
-            if label in self._estimated:
-                return getattr(dx, f"{plain_name(label)}_{HAT}")
-            return symbol_of(self._model, label, dx, ddx)
-
-        found = sum(self._weight(label) * rate(label) for label in self._surface)
-        if self._reference is not None:
-            found -= sum(self._weight(n) * getattr(dx, f"{plain_name(n)}_{DESIRED}") for n in self._surface)
-        return found
-
-    def events(self: Any, x: Any, dx: Any, u: Any) -> dict[str, Event]:
-        S, slides = self._error(x, dx, u), u.side_S**2 < HALF
-        return {
-            "is off S = 0": event(S**2, when="rising", from_start=True, after={"u": {"side_S": sign(S)}}),
-            "reaches S = 0 from above": event(S, when="falling", during=u.side_S > HALF, after=ON),
-            "reaches S = 0 from below": event(S, when="rising", during=u.side_S < -HALF, after=ON),
-            "leaves S = 0": event(
-                where(slides, x.jump_S**2 - 1, -1), when="rising", after={"u": {"side_S": sign(x.jump_S)}}
-            ),
-        }
-
-
-class Chattering(Jumping):
-    """The same behind an actuator: S cannot be kept at zero, the law jumps each time that S changes its sign."""
-
-    def equations(self: Any, x: Any, dx: Any, u: Any) -> Any:  # type: ignore[override]
-        own = super(Jumping, self).equations(x, dx, u) if self._reference is not None else ()  # type: ignore[misc]
-        S = self._error(x, dx, u)
-        return (*own, x.jump_S - where(u.side_S**2 > HALF, u.side_S, sign(S)))
-
-    def events(self: Any, x: Any, dx: Any, u: Any) -> dict[str, Event]:
-        S = self._error(x, dx, u)
-        return {
-            "jumps as S rises": event(S, when="rising", from_start=True, after={"u": {"side_S": 1}}),
-            "jumps as S falls": event(S, when="falling", from_start=True, after={"u": {"side_S": -1}}),
-        }
-
-
-HALF = 0.25
-"""Square of the side, and the side itself, between those that are meant: -1, 0 and 1."""
-
-ON = {"u": {"side_S": 0}}
-"""What is set where S is reached."""
-
 linear_once: Any = cache(linear_in_symbols)
-
-
-def plain_name(label: str) -> str:
-    """Return a state's name without signs."""
-    return label.replace("'", "_dot")
 
 
 def _sliding(
@@ -217,7 +147,6 @@ def _sliding(
     own: tuple[str, ...],
     estimated: tuple[str, ...],
     signum: bool,
-    ideal: bool,
 ) -> type[SlidingMode]:
     first = state_unit(model, surface[0])
     words = [input, *surface, *(f"own {n}" for n in own), *(f"estimated {n}" for n in estimated)]
@@ -246,7 +175,7 @@ def _sliding(
         body["_reference_own"] = all_own
         body |= own_parameters(reference, all_own, DESIRED) | own_states(reference, DESIRED, "desired")
     body["S"] = Output(first, "sliding variable")
-    bases = (Jumping if ideal else Chattering, base) if signum else (base,)
+    bases = (Jumping, base) if signum else (base,)
     return type(base.__name__, bases, body)
 
 
@@ -280,20 +209,22 @@ def sliding(
         States for which an observer's estimates are taken.
     signum
         Whether the law jumps at ``S = 0``; else it is linear within the boundary layer ``phi_S``. In simulation S is
-        then kept at zero by the equivalent control; behind an actuator the law chatters, each jump an event.
+        then kept at zero by the equivalent control; behind an actuator the law would chatter and is refused.
 
     Raises
     ------
     UcritError
         If there is no such input or state, or the input does not act on S at once.
     """
-    cls, ideal = bare_model(model_of(model)), not _behind_actuator(model_of(model))
+    cls = bare_model(model_of(model))
     listed = [word.partition(" ") for word in surface]
     own = (*own, *(rest for word, _, rest in listed if word == "own"))
     estimated = (*estimated, *(rest for word, _, rest in listed if word == "estimated"))
     signum = signum or "signum" in surface
     if reference is None and "reference" in surface:
         reference = cls
+    if signum:
+        _refuse_actuator(model_of(model))
     names = [word for word, _, rest in listed if word not in ("signum", "reference") and not rest]
     input_of(cls, input)
     if not names:
@@ -315,13 +246,17 @@ def sliding(
             "the sliding variable must hold a state whose rate the input enters"
         )
     return made(  # type: ignore[no-any-return]
-        _sliding, cls, input, labels, follows, kept, checked_states(cls, estimated), signum, ideal
+        _sliding, cls, input, labels, follows, kept, checked_states(cls, estimated), signum
     )
 
 
-def _behind_actuator(model: type[Model]) -> bool:
-    """Tell whether an actuator stands between the law and the vehicle."""
-    return any(issubclass(controller, Actuator) for controller in chain_of(model)[1])
+def _refuse_actuator(model: type[Model]) -> None:
+    """Refuse a law that jumps above an actuator, behind which nothing keeps S at zero."""
+    between = next((c.model_id() for c in chain_of(model)[1] if issubclass(c, Actuator)), None)
+    if between:
+        raise UcritError(
+            f"{model.model_id()}: behind {between} a law that jumps would chatter; give a boundary layer phi"
+        )
 
 
 def bare_model(model: type[Model]) -> type[Model]:

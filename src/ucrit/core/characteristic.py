@@ -28,8 +28,8 @@ Part = tuple[PolyElement, ...]
 class CharacteristicPolynomial:
     """``a_0 + a_1 s + ... + a_n s^n`` over a ring of polynomials in the parameters, free of common factors.
 
-    ``parts`` holds its factors, each by its coefficients, ascending; ``functions`` maps those of the ring's symbols that
-    stand for a function of parameters to that function.
+    ``parts`` holds its factors, each by its coefficients, ascending; ``functions`` maps those of the ring's symbols
+    that stand for a function of parameters to that function.
     """
 
     ring: PolyRing

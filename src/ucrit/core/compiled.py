@@ -103,7 +103,7 @@ class Compiled:
         """The same function for `fractions.Fraction`: exact, but for functions such as cosines of parameters."""
         return build(self._facts["coefficients"], "coefficients", exact=True)
 
-    def exact_factors(self, arguments: Arguments) -> list[Sequence[Any]]:
+    def exact_factors(self, arguments: Arguments) -> list[list[Any]]:
         """Return the coefficients of each factor of the polynomial for `fractions.Fraction`, without roots at zero."""
         flat, found = iter(self._exact_factors(arguments)), []
         for size in self._facts["sizes"]:

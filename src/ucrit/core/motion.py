@@ -14,7 +14,6 @@ from .codegen import build
 from .compiled import Arguments, Array, derive_facts
 from .model import Model
 
-
 SAME, MOST = 1e-13, 20
 """Relative change below which Newton's method has found what is implicit, and steps that it may take."""
 
