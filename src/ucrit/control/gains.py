@@ -55,7 +55,10 @@ def in_words(pole: complex) -> str:
 
 
 def checked_poles(poles: Any, states: Sequence[str]) -> Array:
-    """Return the poles [1/s] that are wanted, one for each state; refuse a wrong number, poles without their conjugates or not finite."""
+    """Return the poles [1/s] that are wanted, one for each state.
+
+    Raises `UcritError` for a wrong number, and for poles that are not finite or lack their conjugates.
+    """
     try:
         found = np.atleast_1d(np.asarray(poles, dtype=complex))
     except (TypeError, ValueError):

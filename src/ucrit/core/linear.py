@@ -62,15 +62,21 @@ class LinearSystem:
         return explicit(self)
 
     def substituted(self, values: Mapping[Any, Any]) -> LinearSystem:
-        """Return the system with parameters replaced by exact numbers or other expressions."""
+        """Return the system with parameters replaced by exact numbers or other expressions.
+
+        Numbers that are no ratio then, such as roots, are rounded to 40 digits.
+        """
         swap = {k: sp.sympify(v) for k, v in values.items()}
-        return LinearSystem(
-            self.traced,
-            tuple(M.xreplace(swap) for M in self.P),
-            self.Q.xreplace(swap),
-            tuple(M.xreplace(swap) for M in self.C),
-            self.D.xreplace(swap),
-        )
+
+        def put(M: sp.Matrix) -> sp.Matrix:
+            return M.xreplace(swap).applyfunc(_rational)
+
+        return LinearSystem(self.traced, tuple(map(put, self.P)), put(self.Q), tuple(map(put, self.C)), put(self.D))
+
+
+def _rational(expression: Any) -> Any:
+    numbers = [part for part in expression.atoms(sp.Pow, sp.Function) if part.is_number and not part.is_rational]
+    return expression.xreplace({part: sp.Rational(str(part.n(40))) for part in numbers}) if numbers else expression
 
 
 def linearize(traced: Traced) -> LinearSystem:
