@@ -96,7 +96,7 @@ class Memory:
 def kinks(delays: Sequence[float], others: Sequence[float], until: float) -> list[float]:
     """Return ascending times, no farther apart than the shortest delay, that hold where late inputs have kinks.
 
-    >>> kinks([0.4, 1.0], [], 1.5)
+    >>> [round(t, 3) for t in kinks([0.4, 1.0], [], 1.5)]
     [0.4, 0.8, 1.0, 1.2, 1.4]
     """
     sums = {sum(some) for n in range(1, SMOOTH + 1) for some in combinations_with_replacement(sorted(delays), n)}
