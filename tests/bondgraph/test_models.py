@@ -9,9 +9,9 @@ import sympy as sp
 from ucrit import ModelError, UcritError, bonds, check, critical, find_model, input, load, param, power_flow, simulate
 from ucrit.bondgraph import BondGraphModel, C, Graph, I, R, Se, graph_of, one, q
 from ucrit.bondgraph.equations import state_equations
+from ucrit.core.characteristic import characteristic_polynomial
 from ucrit.core.derive import symbolic
 from ucrit.core.functions import tanh
-from ucrit.core.linear import characteristic_polynomial
 from ucrit.models.car import Car
 from ucrit.models.caster_flexible_sidewall import CasterFlexibleSidewall
 from ucrit.models.caster_relaxation import CasterRelaxation

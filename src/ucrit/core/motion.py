@@ -14,6 +14,9 @@ from .codegen import build, build_for_points
 from .compiled import Arguments, Array, derive_facts
 from .model import Model
 
+SAME, MOST = 1e-13, 20
+"""Relative change below which Newton's method has found what is implicit, and steps that it may take."""
+
 
 class Slopes(NamedTuple):
     """Matrices (..., rows, columns): ``w' = A dw + B du + E dp``, ``y = C dw + D du + F dp`` about a point."""
@@ -61,9 +64,19 @@ class Motion:
 
     def highest(self, w: Array, u: Array, arguments: Arguments) -> Array:
         """Return the highest derivatives and algebraic unknowns, states along the first axis of ``w``."""
+        shape = np.broadcast_shapes(np.shape(w)[1:], np.shape(u)[1:], *(np.shape(a) for a in arguments))
+        z = self._solved(w, u, arguments, np.zeros((int(self._facts["size"]), *shape)))
+        for _ in range(MOST if self._facts["implicit"] else 0):
+            before, z = z, self._solved(w, u, arguments, z)
+            if np.all(np.abs(z - before) <= SAME * (1 + np.abs(z))) or not np.isfinite(z).all():
+                break
+        return z
+
+    def _solved(self, w: Array, u: Array, arguments: Arguments, z: Array) -> Array:
+        """Return the solution of ``M z = f``, both at the given ``z`` where they depend on it."""
         n = int(self._facts["size"])
         with np.errstate(all="ignore"):  # laws with cases compute them all, also where they do not hold
-            entries = _stacked(self._function(w, u, arguments), np.shape(w)[1:])
+            entries = _stacked(self._function(w, u, arguments, z), np.shape(w)[1:])
         if entries.ndim == 1:  # one motion alone
             return np.linalg.solve(entries[: n * n].reshape(n, n), entries[n * n :])
         flat = np.moveaxis(entries, 0, -1)
@@ -100,7 +113,7 @@ class Motion:
         lead = np.broadcast_shapes(w.shape[1:], u.shape[1:], *(np.shape(a) for a in arguments))
         n, m = len(self.labels), len(u)
         residual = self._placed("residual", (len(z), n + m + len(arguments)), lead, (w, z, u, arguments))
-        M = self._mass(w, u, arguments, lead)
+        M = self._mass(w, u, arguments, z, lead)
         dz = -np.linalg.solve(M, residual)
         rows = []
         for kind, i in self._facts["rates"]:
@@ -125,10 +138,10 @@ class Motion:
         used |= {i for kind, i in self._facts["rates"] if kind == "w"}
         return tuple(j not in used for j in range(len(self.labels)))
 
-    def _mass(self, w: Array, u: Array, arguments: Arguments, lead: tuple[int, ...]) -> Array:
+    def _mass(self, w: Array, u: Array, arguments: Arguments, z: Array, lead: tuple[int, ...]) -> Array:
         n = int(self._facts["size"])
         with np.errstate(all="ignore"):
-            entries = self._function(w, u, arguments)[: n * n]
+            entries = self._function(w, u, arguments, z)[: n * n]
         return np.stack([np.broadcast_to(e, lead) for e in entries], axis=-1).reshape(*lead, n, n)
 
     def _placed(self, name: str, shape: tuple[int, int], lead: tuple[int, ...], groups: Any) -> Array:
@@ -152,7 +165,7 @@ class Motion:
     @cached_property
     def _event_facts(self) -> Any:
         if not hasattr(self.model, "events"):
-            return {"names": [], "ends": [], "ways": [], "places": []}
+            return {"names": [], "ends": [], "ways": [], "starts": [], "places": []}
         return cached(self.model, "motion-events", lambda: derive_facts("motion_event", self.model))
 
     @cached_property
@@ -183,6 +196,11 @@ class Motion:
     def event_ways(self) -> tuple[int, ...]:
         """Direction in which each event's value crosses zero: 1 rising, -1 falling, 0 either."""
         return tuple(self._event_facts["ways"])
+
+    @property
+    def event_starts(self) -> tuple[bool, ...]:
+        """Whether each event also happens at the start, where its value is beyond zero already."""
+        return tuple(self._event_facts["starts"])
 
     def event_values(self, w: Array, u: Array, arguments: Arguments) -> Array:
         """Return the values of the events, one a row, which cross zero where they happen."""
