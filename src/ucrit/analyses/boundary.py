@@ -20,7 +20,7 @@ from ..core.model import Model
 from ..numerics.enclosures import Enclosure, EnclosureFunctions
 from ..numerics.rounded import conditions
 from .boundary_result import StabilityBoundary, in_lines
-from .judge import BLOCK, certain, settle
+from .judge import BLOCK, judged_points, settle
 from .lattice import Lattice, corners, crossed, simplices, subdivided
 from .ranges import parse_range
 
@@ -216,7 +216,7 @@ class _Search:
     def margins(self, places: Array) -> tuple[Array, Array]:
         """Return the conditions for stability, shape (conditions, points), and the coefficients' signs."""
         self.evaluations += len(places)
-        _, _, a = certain(self.vehicle, self.lattice.columns(places))
+        a = judged_points(self.vehicle, self.lattice.columns(places)).coefficients
         with np.errstate(all="ignore"):
             sign = np.where(a[-1] < 0, -1.0, 1.0)
             return np.stack([np.broadcast_to(c, sign.shape) for c in conditions(list(sign * a))]), np.sign(a)
