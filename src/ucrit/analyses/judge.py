@@ -16,6 +16,7 @@ from ..core.bounds import coefficient_bounds
 from ..core.compiled import Compiled, compiled, deciding, direction, state_space
 from ..core.errors import UcritError
 from ..core.model import Model
+from ..numerics.matrices import eigenvalues_with_errors
 from ..numerics.rounded import judged, slacks
 from ..numerics.routh import routh
 from .grids import Grid, Tile, flat, tiles
@@ -42,7 +43,7 @@ COMPILED_PAYS = 3 * 10**7
 """Points above which a kernel is compiled unless it already is."""
 
 CLEAR = 1e-7
-"""Real part, as a share of the largest eigenvalue, from which on an eigenvalue decides."""
+"""Real part, as a share of the largest eigenvalue, below which no eigenvalue decides."""
 
 EXACT_POINTS = 2000
 """Points of one grid that are settled in exact arithmetic; further ones by the sign of the largest real part."""
@@ -74,6 +75,7 @@ def _chosen(grid: Grid, engine: str) -> str:
         return "numpy"
     try:
         kernels.needed("numba")
+        kernels.body(grid.functions(next(tiles_of(grid, "numba"))), 0)
     except UcritError:
         return "numpy"
     return "numba"
@@ -225,34 +227,37 @@ def _settled(vehicle: Model, columns: Mapping[str, Array], exact: int) -> tuple[
     if not rest.size:
         return stable, 0
     columns = {name: x[rest] for name, x in columns.items()}
-    rates = _rates(vehicle.along("point", **columns))
-    rates[~known.signed[rest]] = np.nan  # a root next to infinity, whose eigenvalue may have either sign
+    rates, clear = _rates(vehicle.along("point", **columns))
+    clear &= known.signed[rest]  # else a root next to infinity has an eigenvalue of either sign
     stable[rest] = rates < 0
-    near = np.flatnonzero(~(np.abs(rates) > CLEAR))[:exact]
+    near = np.flatnonzero(~clear)
+    near = near[np.argsort(np.abs(rates[near]), kind="stable")][:exact]
     functions = compiled(type(vehicle), direction(vehicle.along("point", **columns)))
     for k in near:
         stable[rest[k]] = _exactly(functions, {**vehicle.values, **{name: x[k] for name, x in columns.items()}})
     return stable, near.size
 
 
-def _rates(many: Model) -> Array:
-    """Largest real part as a share of the largest modulus, nan where the equations are singular."""
+def _rates(many: Model) -> tuple[Array, Array]:
+    """Largest real part as a share of the largest modulus, nan if the equations are singular; and where it is clear."""
     rates = np.full(next(iter(many.dims.values())).size, np.nan)
+    clear = np.zeros(rates.size, dtype=bool)
     try:
         A = state_space(many).A
     except UcritError:
-        return rates
+        return rates, clear
     A = np.broadcast_to(A, (rates.size, *A.shape[-2:]))
     finite = np.isfinite(A).all(axis=(-2, -1))
     if not finite.any():
-        return rates
-    values = np.linalg.eigvals(A[finite]).astype(complex)
+        return rates, clear
+    values, errors = eigenvalues_with_errors(A[finite])
     size = np.abs(values).max(axis=-1)
-    rates[finite] = growth(many, values) / np.where(size == 0, 1, size)
-    functions = compiled(type(many), direction(many))
-    if functions.undamped:
-        rates[rates < CLEAR] = np.nan  # no motion can decay: only growth is clear
-    return rates
+    size[size == 0] = 1
+    rates[finite] = growth(many, values) / size
+    clear[finite] = np.abs(rates[finite]) > np.maximum(CLEAR, errors / size)
+    if compiled(type(many), direction(many)).undamped:
+        clear &= rates > 0  # no motion can decay: only growth is clear
+    return rates, clear
 
 
 def _exactly(functions: Compiled, values: Mapping[str, Any]) -> bool:

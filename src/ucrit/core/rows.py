@@ -7,9 +7,11 @@ conditions, are computed once for a row and evaluated at each point by Horner's 
 from __future__ import annotations
 
 import ast
+import math
 from collections.abc import Sequence
 
 from .compiled import Compiled
+from .errors import UcritError
 
 MATH = {"arctan2": "atan2", "arctan": "atan", "arcsin": "asin", "arccos": "acos", "abs": "fabs"}
 """What NumPy's functions of one number are called in ``math``, where the name differs."""
@@ -75,6 +77,8 @@ def polynomials(functions: Compiled, inner: int | None, rows: Rows) -> list[Poly
     ------
     NotAPolynomialError
         If they are none.
+    UcritError
+        If they contain a function that kernels do not have.
     """
     (function,) = ast.parse(functions.source).body
     assert isinstance(function, ast.FunctionDef)
@@ -106,7 +110,7 @@ def _targets(step: ast.Assign) -> list[str]:
 def _value(node: ast.expr, values: dict[str, Polynomial], rows: Rows) -> Polynomial:
     match node:
         case ast.Constant(value=int() | float()):
-            return (repr(float(node.value)),)
+            return (repr(float(ast.literal_eval(node))),)
         case ast.Name():
             return values[node.id]
         case ast.UnaryOp(op=ast.USub()):
@@ -137,6 +141,10 @@ def _other(node: ast.expr, values: dict[str, Polynomial], rows: Rows) -> str:
             return f"{_fixed(yes, values, rows)} if {_fixed(condition, values, rows)} else {_fixed(no, values, rows)}"
         case ast.Call(func=ast.Attribute(attr=name)):
             arguments = ", ".join(_fixed(x, values, rows) for x in node.args)
+            if not hasattr(math, MATH.get(name, name)):
+                raise UcritError(
+                    f"compiled maps do not know the function {name} in the coefficients; take engine='numpy'"
+                )
             return f"math.{MATH.get(name, name)}({arguments})"
         case ast.Attribute(attr=name):
             return f"math.{MATH.get(name, name)}"
