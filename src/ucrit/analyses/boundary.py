@@ -1,13 +1,14 @@
 """Curves and surfaces in parameter space on which stability changes, without judging the area between.
 
 Cells in which a boundary cannot run are excluded by enclosures of the stability conditions, the others halved; in
-the smallest that are left the boundary is found to many digits.
+the smallest that are left the boundary is found to many digits. Where enclosures exclude too little, or there are none,
+the whole grid of the smallest cells is judged, so that nothing is missed that it shows.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -20,8 +21,8 @@ from ..core.model import Model
 from ..numerics.enclosures import Enclosure, EnclosureFunctions
 from ..numerics.rounded import conditions
 from .boundary_result import StabilityBoundary, in_lines
-from .judge import BLOCK, judged_points, settle
-from .lattice import Lattice, corners, crossed, simplices, subdivided
+from .judge import BLOCK, decide, judged_points, settle
+from .lattice import Lattice, crossed, differing, simplices, subdivided
 from .ranges import parse_range
 
 Array = npt.NDArray[np.float64]
@@ -63,7 +64,7 @@ def boundary(
     ------
     UcritError
         If there is no such parameter, a range is empty or not allowed, there are not two or three ranges, the
-        tolerance is too small, or stability is undecided over a whole region.
+        tolerance is too small, or the boundary runs through more than four million cells.
 
     Examples
     --------
@@ -74,7 +75,7 @@ def boundary(
     """
     lattice = _lattice(vehicle, ranges, tolerance)
     search = _Search(vehicle, lattice)
-    cells, complete = search.cells()
+    cells = search.cells()
     size = len(lattice.names)
     parts = (cells[:, None, None] + simplices(size)).reshape(-1, size + 1, size)
     keys = lattice.keys(parts)
@@ -98,7 +99,6 @@ def boundary(
         line,
         pieces,
         search.evaluations,
-        complete,
     )
 
 
@@ -165,14 +165,16 @@ class _Search:
         self.keys = np.zeros(0, dtype=np.int64)
         self.verdicts = np.zeros(0, dtype=bool)
 
-    def cells(self) -> tuple[Places, bool]:
-        """Return the smallest cells in which a boundary may run, and whether the others were excluded for sure."""
-        found = subdivided(self.lattice, self.open_by_enclosure, False) if self._enclosable() else None
-        if found is not None:
-            return found, True
-        found = subdivided(self.lattice, self.open_by_corners, True)
-        assert found is not None
-        return found, False
+    def cells(self) -> Places:
+        """Return the smallest cells in which a boundary may run."""
+        found = subdivided(self.lattice, self.open_by_enclosure) if self._enclosable() else None
+        return differing(self.lattice, self.judged) if found is None else found
+
+    def judged(self, axes: Mapping[str, Array]) -> npt.NDArray[np.bool_]:
+        """Tell of a grid where the vehicle is stable."""
+        found = decide(self.vehicle, axes, "auto")
+        self.evaluations += found.size
+        return found
 
     def _enclosable(self) -> bool:
         """Whether the model's functions have enclosures."""
@@ -195,12 +197,6 @@ class _Search:
         with np.errstate(all="ignore"):
             a = deciding(self.functions, run(list(values.values())))
             return ~_excluded(a, len(cells))
-
-    def open_by_corners(self, cells: Places, width: int) -> npt.NDArray[np.bool_]:
-        """Tell at the corners of which cells stability differs."""
-        keys = self.lattice.keys(cells[:, None] + width * corners(len(self.lattice.names)))
-        stable = self.stable(keys)
-        return np.asarray(stable.any(axis=1) & ~stable.all(axis=1))
 
     def stable(self, keys: Places) -> npt.NDArray[np.bool_]:
         """Tell of places whether the vehicle is stable there."""

@@ -40,9 +40,6 @@ class StabilityBoundary(Tabular):
         Shape (m, d): lines or triangles between points, by their indices.
     evaluations
         How many cells and points were evaluated.
-    complete
-        Whether cells without a boundary were excluded for sure, so that nothing larger than the tolerance is missing;
-        else the boundary was followed from 64 cells a range.
     """
 
     vehicle: Model
@@ -56,7 +53,6 @@ class StabilityBoundary(Tabular):
     line: Array
     pieces: Array
     evaluations: int
-    complete: bool
 
     @property
     def lines(self) -> tuple[Array, ...]:
