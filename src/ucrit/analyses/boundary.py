@@ -1,8 +1,8 @@
 """Curves and surfaces in parameter space on which stability changes, without judging the area between.
 
 Cells in which a boundary cannot run are excluded by enclosures of the stability conditions, the others halved; in
-the smallest that are left the boundary is found to many digits. Where enclosures exclude too little, or there are none,
-the whole grid of the smallest cells is judged, so that nothing is missed that it shows.
+the smallest that are left the boundary is found to many digits. Where the grid of the smallest cells is small, or
+enclosures exclude too little of it, it is judged as a whole, so that nothing is missed that it shows.
 """
 
 from __future__ import annotations
@@ -33,6 +33,9 @@ FINEST = {2: 2**14, 3: 2**9}
 
 USUAL = {2: 1 / 512, 3: 1 / 64}
 """Tolerances where none is given."""
+
+SMALL_GRID = 2**19
+"""Points of a grid that are judged faster than cells are excluded."""
 
 WITHIN = 1e-9
 """How far a point may be from the boundary, as a share of the smallest cell."""
@@ -167,7 +170,9 @@ class _Search:
 
     def cells(self) -> Places:
         """Return the smallest cells in which a boundary may run."""
-        found = subdivided(self.lattice, self.open_by_enclosure) if self._enclosable() else None
+        points = (self.lattice.count + 1.0) ** len(self.lattice.names)
+        pays = points > SMALL_GRID and self._enclosable()
+        found = subdivided(self.lattice, self.open_by_enclosure) if pays else None
         return differing(self.lattice, self.judged) if found is None else found
 
     def judged(self, axes: Mapping[str, Array]) -> npt.NDArray[np.bool_]:

@@ -23,6 +23,14 @@ def _product(a: Array, b: Array, c: Array, d: Array) -> tuple[Array, Array]:
     return np.minimum(np.minimum(ac, ad), np.minimum(bc, bd)), np.maximum(np.maximum(ac, ad), np.maximum(bc, bd))
 
 
+def _scaled(ends: Any, factor: Any) -> tuple[Array, Array]:
+    """Range of the products of numbers between two ends and a factor."""
+    low, high = ends[0] * factor, ends[1] * factor
+    if np.ndim(factor) == 0:
+        return (high, low) if factor < 0 else (low, high)
+    return np.minimum(low, high), np.maximum(low, high)
+
+
 class Enclosure:
     """Values of a function over N boxes in d dimensions; arithmetic with numbers and arrays (N,) of constants.
 
@@ -83,8 +91,8 @@ class Enclosure:
 
     def __mul__(self, other: Any) -> Enclosure:
         if not isinstance(other, Enclosure):
-            low, high = np.sort([self.lower * other, self.upper * other], axis=0)
-            return Enclosure(self.centre * other, low, high, np.sort(self.slopes * other, axis=0), self.half)
+            slopes = np.stack(_scaled(self.slopes, other))
+            return Enclosure(self.centre * other, *_scaled((self.lower, self.upper), other), slopes, self.half)
         ends = _product(self.lower, self.upper, other.lower, other.upper)
         one = _product(self.slopes[0], self.slopes[1], other.lower, other.upper)
         two = _product(other.slopes[0], other.slopes[1], self.lower, self.upper)
