@@ -220,7 +220,9 @@ def test_a_point_of_a_curve_and_pictures():
         ({"U": (5, 50), "m": (1, 2, 3)}, "both ends"),
         ({"U": "5:50:7", "m": (1, 2)}, "LO:HI"),
         ({"U": (-5, 50), "m": (1, 2)}, "must not cross 0"),
-        ({"U": (5, float("nan")), "m": (1, 2)}, "empty"),
+        ({"U": (5, float("nan")), "m": (1, 2)}, "finite"),
+        ({"U": (5, 50), "m": (1, "x")}, "must be a number"),
+        ({"U": (5, 50), "m": (1, 2), "tolerance": "x"}, "tolerance must be a number"),
         ({"U": (5, 50), "m": (1, 2), "tolerance": 1e-9}, "tolerance"),
     ],
 )

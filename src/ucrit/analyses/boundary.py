@@ -18,6 +18,7 @@ from ..core.codegen import build
 from ..core.compiled import Compiled, compiled, deciding, direction
 from ..core.errors import UcritError
 from ..core.model import Model
+from ..core.units import to_si
 from ..numerics.enclosures import Enclosure, EnclosureFunctions
 from ..numerics.rounded import conditions
 from .boundary_result import StabilityBoundary, in_lines
@@ -111,7 +112,7 @@ def _lattice(vehicle: Model, ranges: dict[str, Any], tolerance: float | None) ->
         raise UcritError(f"a boundary is that of one vehicle: give one value each for {', '.join(vehicle.dims)}")
     if len(ranges) not in FINEST:
         raise UcritError(f"{where}: a boundary is found over two or three parameters, got {len(ranges)}")
-    tolerance = USUAL[len(ranges)] if tolerance is None else float(tolerance)
+    tolerance = USUAL[len(ranges)] if tolerance is None else to_si(tolerance, "1", f"{where}: the tolerance")
     finest = FINEST[len(ranges)]
     if not 1 / finest <= tolerance < 1:
         raise UcritError(
@@ -151,8 +152,10 @@ def _ends(vehicle: Model, name: str, given: Any) -> tuple[float, float, bool]:
     else:
         if np.ndim(given) != 1 or np.size(given) != 2:
             raise UcritError(f"{thing}: a boundary needs both ends of its range, got {given!r}")
-        lo, hi = float(given[0]), float(given[1])
-    if not (np.isfinite([lo, hi]).all() and lo < hi):
+        lo, hi = (to_si(end, parameter.unit if parameter else "1", thing) for end in np.asarray(given, dtype=object))
+    if not np.isfinite([lo, hi]).all():
+        raise UcritError(f"{thing} must be finite, got the range from {lo:g} to {hi:g}")
+    if not lo < hi:
         raise UcritError(f"{thing}: the range from {lo:g} to {hi:g} is empty; the first end must be below the second")
     return lo, hi, log
 

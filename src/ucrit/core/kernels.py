@@ -148,7 +148,7 @@ def needed(engine: str) -> Any:
     if engine not in ENGINES:
         from .errors import near_match
 
-        raise UcritError(f"there is no engine '{engine}'{near_match(engine, ENGINES)}")
+        raise UcritError(f"there is no engine '{engine}'{near_match(str(engine), ENGINES)}")
     try:
         numba = importlib.import_module("numba")
     except ImportError as error:
