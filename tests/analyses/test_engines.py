@@ -183,6 +183,7 @@ def test_rows_are_polynomials_where_the_inner_parameter_allows_it():
     [
         ("(-(v0 - 2*v1)*v0/4 + v1**3, )", (3.0, 5.0), -(3 - 10) * 3 / 4 + 125),
         ("(v1*numpy.where((v1 < 2), v1, 7)*v0*v0, )", (3.0, 5.0), 5 * 7 * 9),
+        ("(v0*abs(v1 - 9) + numpy.maximum(v1, numpy.minimum(v1, 8)), )", (3.0, 5.0), 3 * 4 + 5),
         ("((v0*v0 - v0*v0)*numpy.cos(numpy.pi*v1), )", (3.0, 5.0), 0),
     ],
 )

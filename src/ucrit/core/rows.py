@@ -139,6 +139,10 @@ def _other(node: ast.expr, values: dict[str, Polynomial], rows: Rows) -> str:
     match node:
         case ast.Call(func=ast.Attribute(attr="where"), args=[condition, yes, no]):
             return f"{_fixed(yes, values, rows)} if {_fixed(condition, values, rows)} else {_fixed(no, values, rows)}"
+        case ast.Call(func=ast.Name(id="abs")):
+            return f"abs({_fixed(node.args[0], values, rows)})"
+        case ast.Call(func=ast.Attribute(attr="maximum" | "minimum" as name)):
+            return f"{name[:3]}({', '.join(_fixed(x, values, rows) for x in node.args)})"
         case ast.Call(func=ast.Attribute(attr=name)):
             arguments = ", ".join(_fixed(x, values, rows) for x in node.args)
             if not hasattr(math, MATH.get(name, name)):

@@ -123,6 +123,11 @@ class Enclosure:
             power = power * self
         return power  # type: ignore[no-any-return]
 
+    def __abs__(self) -> Enclosure:
+        nearest = np.where(self.lower > 0, self.lower, np.where(self.upper < 0, -self.upper, 0.0))
+        slope = np.where(self.lower >= 0, 1.0, -1.0), np.where(self.upper <= 0, -1.0, 1.0)
+        return self._through(np.abs(self.centre), nearest, np.maximum(-self.lower, self.upper), *slope)
+
     def _through(self, centre: Array, lower: Array, upper: Array, least: Array, most: Array) -> Enclosure:
         """Return a function of this quantity from its range and that of its derivative."""
         return Enclosure(
