@@ -25,6 +25,7 @@ from .boundary_result import StabilityBoundary, in_lines
 from .judge import BLOCK, decide, judged_points, settle
 from .lattice import Lattice, crossed, differing, simplices, subdivided
 from .ranges import parse_range
+from .stability_map import StabilityMap
 
 Array = npt.NDArray[np.float64]
 Places = npt.NDArray[np.int64]
@@ -37,6 +38,9 @@ USUAL = {2: 1 / 512, 3: 1 / 64}
 
 SMALL_GRID = 2**19
 """Points of a grid that are judged faster than cells are excluded."""
+
+SIDES = 128
+"""Cells of each axis of the coarse map."""
 
 WITHIN = 1e-9
 """How far a point may be from the boundary, as a share of the smallest cell."""
@@ -91,6 +95,7 @@ def boundary(
     else:
         line = np.zeros(len(places), dtype=np.int64)
     points = np.stack(list(lattice.columns(places).values()), axis=1)
+    sides = search.sides() if size == 2 else None
     return StabilityBoundary(
         vehicle,
         lattice.names,
@@ -103,6 +108,7 @@ def boundary(
         line,
         pieces,
         search.evaluations,
+        sides,
     )
 
 
@@ -183,6 +189,12 @@ class _Search:
         found = decide(self.vehicle, axes, "auto")
         self.evaluations += found.size
         return found
+
+    def sides(self) -> StabilityMap:
+        """Return a coarse map of the whole plane."""
+        step = max(1, self.lattice.count // SIDES)
+        axes = {name: x[::step] for name, x in self.lattice.axes().items()}
+        return StabilityMap(self.vehicle.with_(**axes), axes, self.judged(axes))
 
     def _enclosable(self) -> bool:
         """Whether the model's functions have enclosures."""

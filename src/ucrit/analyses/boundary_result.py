@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from ..core.model import Model
 from .convert import Series, Table, Tabular, unit_of
+from .stability_map import StabilityMap
 
 Array = npt.NDArray[Any]
 
@@ -40,6 +41,8 @@ class StabilityBoundary(Tabular):
         Shape (m, d): lines or triangles between points, by their indices.
     evaluations
         How many cells and points were evaluated.
+    sides
+        Map of at most 129 x 129 points that tells which sides are stable, for two parameters.
     """
 
     vehicle: Model
@@ -53,6 +56,7 @@ class StabilityBoundary(Tabular):
     line: Array
     pieces: Array
     evaluations: int
+    sides: StabilityMap | None = None
 
     @property
     def lines(self) -> tuple[Array, ...]:
