@@ -57,8 +57,8 @@ def boundary(
         With scalar parameters.
     tolerance
         Share of each range down to which boundaries are looked for, 1/512 by default for two parameters and 1/64
-        for three; the next lower power of two is taken. A stable or unstable spot may be missed only where a
-        grid of that many steps does not show it. Points found are correct to about 1e-9 of such a step.
+        for three; the next lower power of two is taken. Nothing is missed that a grid of that many
+        steps shows. Points found are correct to about 1e-9 of such a step.
     **ranges
         Two or three parameters, each with its range [SI]: two numbers, or text such as ``"20:130 km/h"`` or
         ``"1e3:1e6:log"`` (see `parse_range`).

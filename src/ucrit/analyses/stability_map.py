@@ -91,7 +91,7 @@ def stability_map(
     vehicle
         With scalar parameters, but for those of the grid.
     engine
-        What computes: ``"numpy"``, ``"numba"`` (compiled code, ten times faster after a second for compiling),
+        What computes: ``"numpy"``, ``"numba"`` (compiled code, twenty times faster after a second for compiling),
         ``"cuda"`` (an NVIDIA GPU), or ``"auto"``: numba for maps so large that it pays, where it is installed.
         The answer is the same.
     margins
