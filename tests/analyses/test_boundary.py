@@ -202,7 +202,10 @@ def test_a_point_of_a_curve_and_pictures():
     result = boundary(load("caravan"), c=(0, 8000), U="20:180 km/h", tolerance=1 / 64)
     assert "flutter" in str(result)
     assert result.to_dataframe().shape == (len(result.points), 5)
-    assert len(plot(result).axes[0].get_lines()) >= 2
+    drawn = plot(result).axes[0]
+    assert len(drawn.get_lines()) >= 2
+    assert {"stable", "unstable"} <= {text.get_text() for text in drawn.texts}
+    assert result.sides.stable.shape == (65, 65)
     assert plot(boundary(load("caravan"), c=(0, 8000), U=(5, 50), m=(500, 2500), tolerance=1 / 8)).axes
     nothing = boundary(load("understeering-car"), U=(1, 60), m=(500, 2500), tolerance=1 / 64)
     assert len(nothing.points) == 0 == len(nothing.lines)

@@ -276,3 +276,22 @@ def test_the_kernel_for_gpus_in_numbas_simulator():
         check=False,
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_the_kernel_compiles_for_gpus_that_are_not_there():
+    """Where NVIDIA's compiler is installed, a device is not needed for that."""
+    import numba
+    from numba import cuda
+
+    row, table = numba.float64[::1], numba.float64[:, ::1]
+    given = (row, row, numba.int64[::1], table, numba.int64, row, numba.uint8[:, ::1])
+    for name, outer, inner in (("caravan", "c", "U"), ("chain", "k", "c")):
+        vehicle = Chain(m=1, k=1, c=0.1, f=0.3) if name == "chain" else load(name)
+        names, made = list(vehicle.values), {}
+        exec(kernels.source(compiled(type(vehicle)), (names.index(outer),), names.index(inner), "cuda"), made)
+        try:
+            text, _ = cuda.compile_ptx(made["kernel"], given, cc=(9, 0))
+        except (ImportError, OSError, cuda.cudadrv.error.NvvmSupportError) as error:
+            pytest.skip(f"needs NVIDIA's compiler: {error}")
+        assert "fma.rn.f64" in text
+        assert "sm_90" in text

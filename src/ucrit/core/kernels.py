@@ -75,7 +75,8 @@ def _judging(a: list[Polynomial], rows: Rows) -> Body:
         value = f"sign*{rows.horner(names)}" if odd and changes else rows.horner(names)
         (point if varies else row).extend([f"c{i} = {value}", f"least = c{i} if c{i} < least else least"])
     # a leading coefficient that may have the other sign turns the conditions round: nothing is sure then
-    doubt = "not min(abs(least), abs(c0)) > limit" if changes else "not abs(least) > limit"
+    doubt = "not abs(least) > limit"
+    doubt = f"({doubt}) | (not abs(c0) > limit)" if changes else doubt
     row += ["lowest, limit = least, 1.0 if total < math.inf else math.inf"]
     row += [] if changes else ["limit = limit if c0 > 1.0 else math.inf"]
     return Body(row, [*point, "sure = least > limit", f"doubt = {doubt}"])
