@@ -19,7 +19,7 @@ from ..core.compiled import Compiled, compiled, deciding, direction
 from ..core.errors import UcritError
 from ..core.model import Model
 from ..core.units import to_si
-from ..numerics.enclosures import Enclosure, EnclosureFunctions
+from ..numerics.enclosures import Enclosure, EnclosureFunctions, excluded
 from ..numerics.rounded import conditions
 from .boundary_result import StabilityBoundary, in_lines
 from .judge import BLOCK, decide, judged_points, settle
@@ -216,7 +216,7 @@ class _Search:
         run = build(self.functions.source, "coefficients", functions=EnclosureFunctions)
         with np.errstate(all="ignore"):
             a = deciding(self.functions, run(list(values.values())))
-            return ~_excluded(a, len(cells))
+            return ~excluded(a, len(cells))
 
     def stable(self, keys: Places) -> npt.NDArray[np.bool_]:
         """Tell of places whether the vehicle is stable there."""
@@ -279,29 +279,3 @@ class _Search:
             low[active[tiny]] = high[active[tiny]] = middle[tiny]
             active = active[~tiny]
         return (low + high) / 2
-
-
-def _excluded(a: Sequence[Any], count: int) -> npt.NDArray[np.bool_]:
-    """Tell in which boxes all points are stable, or none is, from enclosures of the coefficients."""
-    if len(a) == 1:
-        return np.ones(count, dtype=bool)
-    lower, upper = _range(a[-1], count)
-    sign = np.where(upper < 0, -1.0, 1.0)
-    fixed = (lower > 0) | (upper < 0)
-    a = [c * sign for c in a]
-    stable, unstable = np.array(fixed), np.zeros(count, dtype=bool)
-    before = np.array(fixed)
-    for c in conditions(a):
-        lower, upper = _range(c, count)
-        # up to degree 4 each condition is needed by itself; in Routh's column only as long as those before hold
-        unstable |= (upper <= 0) & fixed & (before if len(a) > 5 else True)
-        before &= lower > 0
-        stable &= lower > 0
-    for c in a:
-        unstable |= (_range(c, count)[1] <= 0) & fixed
-    return np.asarray(stable | unstable)
-
-
-def _range(c: Any, count: int) -> tuple[Array, Array]:
-    ends = (c.lower, c.upper) if isinstance(c, Enclosure) else (c, c)
-    return np.broadcast_to(ends[0], (count,)), np.broadcast_to(ends[1], (count,))

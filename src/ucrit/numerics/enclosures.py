@@ -8,11 +8,13 @@ are not rounded outward: they hold to a few rounding units.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+
+from .rounded import conditions
 
 Array = npt.NDArray[np.float64]
 
@@ -177,3 +179,29 @@ class EnclosureFunctions:
             return np.sqrt(x)
         lower, upper = np.sqrt(x.lower), np.sqrt(x.upper)
         return x._through(np.sqrt(x.centre), lower, upper, 0.5 / upper, 0.5 / lower)
+
+
+def excluded(a: Sequence[Any], count: int) -> npt.NDArray[np.bool_]:
+    """Tell in which boxes all points are stable, or none is, from enclosures of the coefficients."""
+    if len(a) == 1:
+        return np.ones(count, dtype=bool)
+    lower, upper = _range(a[-1], count)
+    sign = np.where(upper < 0, -1.0, 1.0)
+    fixed = (lower > 0) | (upper < 0)
+    a = [c * sign for c in a]
+    stable, unstable = np.array(fixed), np.zeros(count, dtype=bool)
+    before = np.array(fixed)
+    for c in conditions(a):
+        lower, upper = _range(c, count)
+        # up to degree 4 each condition is needed by itself; in Routh's column only as long as those before hold
+        unstable |= (upper <= 0) & fixed & (before if len(a) > 5 else True)
+        before &= lower > 0
+        stable &= lower > 0
+    for c in a:
+        unstable |= (_range(c, count)[1] <= 0) & fixed
+    return np.asarray(stable | unstable)
+
+
+def _range(c: Any, count: int) -> tuple[Array, Array]:
+    ends = (c.lower, c.upper) if isinstance(c, Enclosure) else (c, c)
+    return np.broadcast_to(ends[0], (count,)), np.broadcast_to(ends[1], (count,))
