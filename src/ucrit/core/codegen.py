@@ -71,6 +71,18 @@ def _printer() -> Any:
                 return f"({product})" if exponent > 0 else f"(1/({product}))"
             return str(super()._print_Pow(expr, rational=rational))
 
+        def _print_Max(self, expr: Any) -> str:
+            return self._nested("numpy.maximum", expr)
+
+        def _print_Min(self, expr: Any) -> str:
+            return self._nested("numpy.minimum", expr)
+
+        def _nested(self, name: str, expr: Any) -> str:
+            text, *others = map(self._print, expr.args)
+            for other in others:
+                text = f"{name}({text}, {other})"
+            return str(text)
+
         def _print_Piecewise(self, expr: Any) -> str:
             *pieces, (last, always) = expr.args
             text = self._print(last) if always == True else "numpy.nan"  # noqa: E712
