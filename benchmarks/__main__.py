@@ -2,7 +2,8 @@
 
 Everything is measured side by side in one run, the candidates in turn (A B A B ...), so that a machine that
 slows down slows all of them; ratios of medians count. Kernels are timed in CPU time, processes by the clock.
-Name some of the parts to measure only those; ``--device`` adds the GPU.
+Columns: time, ratio to the first line of a part, the limit of that ratio in brackets. Name some of the parts to measure
+only those; ``--device`` adds the GPU, and says so in a line where there is none.
 """
 
 from __future__ import annotations
@@ -10,7 +11,7 @@ from __future__ import annotations
 import sys
 
 from benchmarks import bicycle, explorer, kernels, maps, startup
-from benchmarks.timing import Row
+from benchmarks.timing import Row, load
 
 PARTS = {
     "bandwidth": kernels.bandwidth,
@@ -31,6 +32,7 @@ def main() -> int:
     if unknown := set(asked) - PARTS.keys():
         print(f"there is no part {', '.join(sorted(unknown))}; allowed: --device, {', '.join(PARTS)}", file=sys.stderr)
         return 2
+    print(f"ucrit benchmarks, {load()}")
     rows: list[Row] = []
     measures = [PARTS[part] for part in asked or PARTS]
     for measure in (*measures, *([maps.device] if "--device" in sys.argv[1:] else [])):
@@ -39,9 +41,10 @@ def main() -> int:
         for row in found:
             print(row, flush=True)
     missed = [row for row in rows if row.ok is False]
-    print(f"\n{len(missed)} limit{'s' if len(missed) != 1 else ''} missed" if missed else "\nall limits kept")
+    print(f"\nAt the end: {load()}")
+    print(f"{len(missed)} limit{'s' if len(missed) != 1 else ''} missed" if missed else "all limits kept")
     for row in missed:
-        print(f"  {row.what}")
+        print(f"  {row.what.strip()}")
     return 1 if missed else 0
 
 

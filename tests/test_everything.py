@@ -9,7 +9,8 @@ import pytest
 import ucrit
 from ucrit import UcritError, load
 from ucrit.catalogue import vehicle_names
-from ucrit.core.compiled import coefficients
+from ucrit.core.compiled import coefficients, state_space
+from ucrit.core.motion import motion
 from ucrit.core.possible import allowed
 
 ONE_EACH = list({type(load(name)): name for name in vehicle_names()}.values())
@@ -76,11 +77,14 @@ REFUSED = {
     "simulate": set(),
     "approximation": set(),
     "limit": set(),
-    "transfer": {"four-wheel-car"},
+    "transfer": set(),
     "criteria": {
         "benchmark-bicycle",
         "four-wheel-car",
+        "four-wheel-car-on-brush-tires",
         "car-and-caravan",
+        "car-on-worn-rear-tires",
+        "car-with-stability-control",
         "coach-truck",
         "navion",
         "navion-from-geometry",
@@ -97,6 +101,18 @@ def test_every_vehicle_answers(name):
     vehicle = load(name)
     for what, analysis in ALWAYS.items():
         assert analysis(vehicle) is not None, what
+
+
+@pytest.mark.parametrize("name", ONE_EACH)
+def test_slopes_of_the_motion_are_the_linear_equations(name):
+    vehicle = load(name)
+    made, expected = motion(type(vehicle)), state_space(vehicle).A
+    w, u = made.basic(vehicle.arguments())
+    A = made.slopes(np.reshape(w, (-1, 1)), np.reshape(u, (-1, 1)), vehicle.arguments()).A[0]
+    if A.shape == expected.shape:
+        np.testing.assert_allclose(A, expected, rtol=1e-9, atol=1e-9 * np.abs(expected).max())
+    else:  # constraints leave fewer states
+        assert np.isfinite(A).all()
 
 
 @pytest.mark.parametrize("what", WHERE_IT_FITS)

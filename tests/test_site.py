@@ -45,7 +45,7 @@ class Read(HTMLParser):
 @pytest.fixture(scope="module")
 def site(tmp_path_factory):
     folder = tmp_path_factory.mktemp("site")
-    build = [sys.executable, ROOT / "docs" / "site" / "build.py", folder, "--without-gallery"]
+    build = [sys.executable, ROOT / "docs" / "site" / "build.py", folder, "--without-running"]
     environment = {**os.environ, "PYTHONPATH": str(Path(ucrit.__file__).parent.parent)}
     done = subprocess.run(build, capture_output=True, text=True, env=environment)
     pages = {str(path.relative_to(folder / "html")): Read(path) for path in (folder / "html").rglob("*.html")}

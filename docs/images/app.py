@@ -24,6 +24,8 @@ if __name__ == "__main__":
         page.goto(f"http://127.0.0.1:{listening.getsockname()[1]}/{link}")
         page.wait_for_selector("html[data-settled]", state="attached")
         page.wait_for_selector("#film .body")
+        page.wait_for_selector("#map .design")
+        page.wait_for_selector("#sure:not(:empty)")
         page.locator("#film .time").evaluate("e => { e.value = 40; e.dispatchEvent(new Event('input')); }")
         page.screenshot(path=HERE / "app.png")
         browser.close()

@@ -129,7 +129,7 @@ def trailer_locus():
         axes.plot(part, np.zeros(part.size), color=style.colour(0), linewidth=1.8)
     for sign in (1, -1):
         axes.plot(upper.real, sign * upper.imag, color=style.colour(0), linewidth=1.8)
-    for U in (4, 6, 10, 15, 20, 30, 60, 200):
+    for U in (4, 6, 10, 15, 20, 30, 50, 200):
         roots = sweep(trailer, U=[U]).eigenvalues[0]
         axes.plot(roots.real, roots.imag, "o", color=style.colour(0), markersize=4)
         for root in roots[roots.imag >= 0]:

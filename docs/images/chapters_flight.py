@@ -29,15 +29,24 @@ def lean_steps():
 
 
 def section_lift():
-    figure, axes = figure_with_axes(2.9)
+    figure, (axes, moment) = figure_with_axes(2.9, 2)
     alpha = np.deg2rad(np.linspace(-10, 60, 500))
     curve(axes, np.rad2deg(alpha), wings.stalling_lift(alpha), 0, "with stall")
     small = alpha < np.deg2rad(20)
-    curve(axes, np.rad2deg(alpha[small]), wings.thin_section(alpha[small])[0], 1, "thin section, attached flow")
+    curve(axes, np.rad2deg(alpha[small]), wings.thin_section(alpha[small])[0], 1, "attached flow")
     axes.axhline(0, color=style.MUTED, linewidth=0.8)
     axes.set_xlabel("angle of attack from zero lift [degrees]")
     axes.set_ylabel("lift coefficient of a section")
     axes.legend(frameon=False, loc="upper right")
+    alpha = np.deg2rad(np.linspace(-4, 10, 50))
+    lift, leading = wings.thin_section(alpha, 0.05)
+    curve(moment, lift, leading, 2, "about the leading edge")
+    curve(moment, lift, leading + lift / 4, 3, "about a quarter of the chord")
+    moment.axhline(0, color=style.MUTED, linewidth=0.8)
+    moment.set_xlabel("lift coefficient")
+    moment.set_ylabel("moment coefficient, with camber")
+    moment.set_ylim(-0.4, 0.2)
+    moment.legend(frameon=False, loc="upper right")
     save(figure, "chapter-09-section")
 
 

@@ -1,27 +1,35 @@
 """Build the pages in docs, the gallery and the reference: ``python docs/site/build.py [folder]``, ``make docs``.
 
-The pages are copied to a folder of their own, links between them adjusted, and the reference is written beside them
-from the declarations of models, vehicles, laws and commands. Sphinx does the rest; its warnings are errors.
+The pages are run, as far as they or the package changed since. They are copied to a folder of their own, links between
+them adjusted, and the reference is written beside them from the declarations of models, vehicles, laws and commands.
+Sphinx does the rest; its warnings are errors.
 """
 
 import argparse
+import hashlib
 import re
 import shutil
 import sys
+import tempfile
 from pathlib import Path
 
 import commands
 import interface
+from execute import run_page
 
 import models
+from ucrit.catalogue import model_names, vehicle_names
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "docs"
 LINK = re.compile(r"(\]\()([^)\s]+)(\))")
+NAME = re.compile(r"(?<![\[`])`([a-z0-9-]+)`(?![`\]])")
 LANGUAGE = re.compile(r"^(`{3,})(\w+)$", re.MULTILINE)
 
 FIRST = ("readme", "add-a-vehicle", "measurements")
 """Pages that stand first; the others follow by their names."""
+
+TITLES = {"readme": "Read me first <readme>"}
 
 
 def write(path, text):
@@ -52,10 +60,42 @@ def coloured(language):
     return language
 
 
+def linked(match):
+    """Return the name of a model or a vehicle as a link to the reference."""
+    name = match[1]
+    if name in vehicle_names():
+        return f"[`{name}`](reference/models/{models.base_of(name)}.md#{name})"
+    return f"[`{name}`](reference/models/{name}.md)" if name in model_names() else match[0]
+
+
 def page(path):
-    """Return a page's text with its links adjusted, and no language that cannot be coloured."""
+    """Return a page's text with its links adjusted, links to the reference, and no language that cannot be coloured."""
     text = LANGUAGE.sub(lambda match: match[1] + coloured(match[2]), path.read_text(encoding="utf-8"))
-    return LINK.sub(lambda match: match[1] + moved(match[2]) + match[3], text)
+    text = LINK.sub(lambda match: match[1] + moved(match[2]) + match[3], text)
+    parts = re.split(r"(^```.*?^```$)", text, flags=re.MULTILINE | re.DOTALL)
+    return "".join(part if part.startswith("```") else NAME.sub(linked, part) for part in parts)
+
+
+def execute(pages, folder):
+    """Run the pages that are not known to be right for the package as it is; return what is wrong, a text a page."""
+    package = hashlib.sha256()
+    for path in sorted((ROOT / "src").rglob("*")):
+        if path.is_file() and path.suffix not in (".pyc",):
+            package.update(path.read_bytes())
+    wrong = {}
+    for name, path in pages.items():
+        stamp = folder / "run" / name
+        state = hashlib.sha256(path.read_bytes() + package.digest()).hexdigest()
+        if stamp.is_file() and stamp.read_text(encoding="utf-8") == state:
+            continue
+        with tempfile.TemporaryDirectory() as place:
+            try:
+                run_page(path, Path(place), folder / "cache")
+            except AssertionError as error:
+                wrong[name] = str(error)
+                continue
+        write(stamp, state)
+    return wrong
 
 
 def index(names):
@@ -63,7 +103,7 @@ def index(names):
     chapters = [name for name in names if name.startswith("chapter-")]
     rest = sorted(set(names) - set(chapters) - {*FIRST, "index", "changelog"})
     menus = {
-        "Pages": [*(name for name in FIRST if name in names), *rest],
+        "Pages": [*(TITLES.get(name, name) for name in FIRST if name in names), *rest],
         "Vehicle Stability, by chapter": chapters,
         "Examples": ["gallery/index"],
         "Reference": [
@@ -82,10 +122,15 @@ def index(names):
     return page(DOCS / "index.md") + "\n" + "\n\n".join(lists) + "\n"
 
 
+def sources():
+    """Return all pages that are written by hand, by their names in the site."""
+    pages = {path.stem: path for path in sorted(DOCS.glob("*.md"))}
+    return pages | {"readme": ROOT / "README.md", "changelog": ROOT / "CHANGELOG.md"}
+
+
 def stage(folder):
     """Write everything that Sphinx reads."""
-    pages = {path.stem: path for path in sorted(DOCS.glob("*.md"))}
-    pages |= {"readme": ROOT / "README.md", "changelog": ROOT / "CHANGELOG.md"}
+    pages = sources()
     wanted = {folder / "index.md": index(list(pages))}
     wanted |= {folder / f"{name}.md": page(path) for name, path in pages.items() if name != "index"}
     for part in (models, commands, interface):
@@ -104,13 +149,15 @@ def main(arguments=None):
     """Write the sources and build the pages; return Sphinx's exit status."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", nargs="?", default=str(ROOT / "build" / "docs"), help="where to (build/docs)")
-    parser.add_argument("--without-gallery", action="store_true", help="do not run the examples")
+    parser.add_argument("--without-running", action="store_true", help="run neither the pages nor the examples")
     chosen = parser.parse_args(arguments)
     folder = Path(chosen.folder).resolve()
+    if not chosen.without_running and (wrong := execute(sources(), folder)):
+        sys.exit("\n\n".join(f"{name} shows what is not so:\n{text}" for name, text in wrong.items()))
     stage(folder / "source")
     from sphinx.cmd.build import main as sphinx
 
-    options = ["-D", "plot_gallery=0"] if chosen.without_gallery else []
+    options = ["-D", "plot_gallery=0"] if chosen.without_running else []
     here = str(Path(__file__).parent)
     places = [str(folder / "source"), str(folder / "html")]
     return sphinx(["-W", "--keep-going", "-q", "-c", here, "-d", str(folder / "doctrees"), *options, *places])

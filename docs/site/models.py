@@ -1,6 +1,7 @@
 """Reference pages of models and vehicles, from their declarations and the published data they are checked against."""
 
 import math
+from functools import cache
 from html import escape
 from itertools import groupby
 
@@ -39,6 +40,12 @@ def pages():
 def base(vehicle):
     """Return the name of the model that a vehicle's file names."""
     return type(vehicle).ingredients()["model"]
+
+
+@cache
+def base_of(name):
+    """Return the name of the model that a shipped vehicle's file names."""
+    return base(ucrit.load(name))
 
 
 def index(of):

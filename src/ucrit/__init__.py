@@ -46,6 +46,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.manoeuvres import Step as Step
     from .analyses.margins import margins as margins
     from .analyses.modes import modes as modes
+    from .analyses.percussion import percussion as percussion
     from .analyses.pitching import moment_line as moment_line
     from .analyses.pitching import static_margin as static_margin
     from .analyses.power_flow import power_flow as power_flow
@@ -147,6 +148,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "handling_diagram": "analyses.handling",
     "limit": "analyses.limits",
     "limit_cycles": "analyses.cycles",
+    "percussion": "analyses.percussion",
     "moment_line": "analyses.pitching",
     "static_margin": "analyses.pitching",
     "dwell_criteria": "analyses.dwell",

@@ -8,7 +8,7 @@ import json
 import os
 import pkgutil
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, partial
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any
@@ -27,9 +27,6 @@ BONDS = ".bonds"
 """Ending of files that hold a bond graph as text."""
 PUBLISHED = HERE / "data" / "published"
 TIRES = HERE / "data" / "tires"
-
-AS_MEASURED = ":measured"
-"""Behind the name of a tire file: with the shifts of the one tire that was measured."""
 
 
 @cache
@@ -91,16 +88,18 @@ def find_part(name: str, kind: type[Part], folder: Path | None = None) -> type[P
     """Return the law of a name that is of the kind which a slot takes.
 
     A tire may also be a property file (``"mine.tir"``) or one that is shipped, without the shifts of the one tire that
-    was measured, or with them (``"mine.tir:measured"``). Relative paths start at ``folder``.
+    was measured, or with them (``"mine.tir:measured"``), and with switches (``"mine.tir:SLIP=angle"``). Relative paths
+    start at ``folder``.
     """
     laws = _laws(kind)
     if name in laws:
         return laws[name]
-    file = name.removesuffix(AS_MEASURED)
-    if kind.__name__ == "Tire" and (file.lower().endswith(".tir") or file in tire_names()):
-        law: type[Part] = tire_file(file, folder).law(symmetric=file == name)
-        return law
-    shipped = tire_names() if kind.__name__ == "Tire" else ()
+    shipped: tuple[str, ...] = ()
+    if kind.__name__ == "Tire":
+        shipped, (file, switches) = tire_names(), tire_switches(name)
+        if file.lower().endswith(".tir") or file in shipped:
+            law: type[Part] = tire_file(file, folder).law(**switches)
+            return law
     raise UcritError(f"there is no {kind.__name__.lower()} law '{name}'{near_match(name, [*laws, *shipped])}")
 
 
@@ -111,6 +110,17 @@ def tire_names() -> tuple[str, ...]:
     True
     """
     return tuple(sorted(e.name[:-4] for e in os.scandir(TIRES) if e.name.endswith(".tir")))
+
+
+def tire_switches(name: str) -> tuple[str, dict[str, Any]]:
+    """Split a tire's name into that of its file and the switches behind it, colons between them.
+
+    >>> tire_switches("mine.tir:measured:SLIP=angle")
+    ('mine.tir', {'symmetric': False, 'SLIP': 'angle'})
+    """
+    split: Any = importlib.import_module("ucrit.parts.tires.tir").split_name
+    found: tuple[str, dict[str, Any]] = split(name)
+    return found
 
 
 def tire_file(name: str, folder: Path | None = None) -> Any:
@@ -128,7 +138,8 @@ def tire(name: str, **parameters: Any) -> Any:
     ----------
     name
         Name of a law (``"brush"``), of a shipped tire (``"pacejka-205-60r15"``), or the path of a ``.tir`` file; with
-        ``:measured`` behind it, a file's tire keeps the shifts of the one that was measured.
+        ``:measured`` behind it, a file's tire keeps the shifts of the one that was measured, and with ``:SLIP=angle``
+        it has a switch of `ucrit.parts.tires.magic_formula` in another place.
     parameters
         Values [SI, or text with a unit] of the law's parameters.
 
@@ -171,7 +182,7 @@ def read_vehicle(text: str, where: str, changes: Mapping[str, Any] | None = None
     Raises
     ------
     UcritError
-        If the text is wrong, or names a Python file or a tire property file.
+        If the text is wrong, or names a file: a model of one's own, a bond graph, tire properties.
 
     Examples
     --------
@@ -181,7 +192,7 @@ def read_vehicle(text: str, where: str, changes: Mapping[str, Any] | None = None
     """
 
     def model(name: str) -> type[Model]:
-        if ".py" in name or name.endswith(BONDS):
+        if name.replace("_", "-") not in model_names() and ("." in name or "/" in name):
             raise UcritError(f"'{name}' is a file; name a model of the catalogue here")
         return find_model(name)
 
@@ -315,7 +326,8 @@ def load(vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = No
         ``"caravan"``, or the path of a vehicle file (anything ending in ``.toml`` or holding a path separator), or of a
         bond graph (``.bonds``) whose parameters have defaults or are among the changes.
     changes
-        Parameter values [SI, or text with a unit] that replace those of the file.
+        Parameter values [SI, or text with a unit] that replace those of the file; and tires by the slots that take
+        them, as `tire` names them: ``{"front": "pacejka-205-60r15"}``.
     at_speed
         Value for the parameter that is the model's speed, whatever it is called.
 
@@ -339,6 +351,6 @@ def load(vehicle: str | os.PathLike[str], changes: Mapping[str, Any] | None = No
     folder = path.parent
     text = f"model = {json.dumps(path.name)}\n[parameters]" if path.suffix == BONDS else read_text(path)
     find = Find(
-        lambda model: find_model(model, folder), lambda law, kind: find_part(law, kind, folder), controlled, graph_model
+        partial(find_model, folder=folder), partial(find_part, folder=folder), controlled, graph_model, find_part
     )
     return parse_vehicle(text, where, find, changes, at_speed)

@@ -44,6 +44,24 @@ def test_a_wrong_linear_verdict_is_found(monkeypatch):
     assert [f.agrees for f in found.findings] == [False, True]
 
 
+def test_an_error_of_a_percent_in_any_parameter_of_the_linear_equations_is_found(monkeypatch):
+    """Wherever it moves an eigenvalue by more than the audit allows."""
+    found = {}
+    for name in ("caravan", "oversteering-car", "nose-gear"):
+        vehicle = load(name)
+        right = modes(vehicle).eigenvalues
+        for parameter, value in vehicle.values.items():
+            if not isinstance(value, float) or value == 0:
+                continue
+            wrong = modes(vehicle.with_(**{parameter: 1.01 * value}))
+            apart = max(np.abs(s - right).min() / abs(s) for s in wrong.eigenvalues)
+            monkeypatch.setattr(module, "modes", lambda _, wrong=wrong: wrong)
+            if abs(apart / module.WITHIN - 1) > 0.05:
+                found[name, parameter] = apart > module.WITHIN
+                assert audit(vehicle).agrees != found[name, parameter], (name, parameter)
+    assert sum(found.values()) > 15
+
+
 def test_a_larger_perturbation_shows_where_linear_equations_end():
     caravan = load("caravan")
     small, large = audit(caravan, size=1e-4), audit(caravan, size=0.5)

@@ -7,13 +7,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ucrit import UcritError, boundary, critical, find_model, load, plot, stability_map
+from ucrit import Model, UcritError, boundary, coordinate, critical, find_model, load, param, plot, stability_map
 from ucrit.analyses.modes import eigenvalues
 
 UNDAMPED = {"m": 1000, "a": 1.5, "I_c": 1800, "U": 25, "C": 5e4, "b": 1, "k": 1e4}
 
 
 module = importlib.import_module("ucrit.analyses.boundary")
+lattice = importlib.import_module("ucrit.analyses.lattice")
 
 
 def cells_of_grid(vehicle, result):
@@ -59,7 +60,6 @@ def test_nothing_is_missed_that_a_grid_shows(name, ranges):
     result = boundary(vehicle, tolerance=1 / 128, **ranges)
     wanted, n = cells_of_grid(vehicle, result)
     hit = cells_of_points(result, n)
-    assert result.complete
     assert wanted.any()
     assert not (wanted & ~hit).any()
 
@@ -112,13 +112,85 @@ def test_surfaces_agree_with_the_curves_in_their_planes():
     assert np.unique(edges, axis=0, return_counts=True)[1].max() == 2  # the surface has no branches
 
 
-def test_sampled_boundaries_agree(monkeypatch):
-    caravan = load("caravan")
-    sure = boundary(caravan, c=(0, 8000), U=(5, 50), tolerance=1 / 256)
-    monkeypatch.setattr(module._Search, "_enclosable", lambda self: False)
-    sampled = boundary(caravan, c=(0, 8000), U=(5, 50), tolerance=1 / 256)
-    assert (sure.complete, sampled.complete) == (True, False)
-    np.testing.assert_allclose(np.sort(sampled.points, axis=0), np.sort(sure.points, axis=0), rtol=1e-9)
+def test_cells_that_are_excluded_and_whole_grids_agree(monkeypatch):
+    caravan, ranges = load("caravan"), {"c": (0, 8000), "U": (5, 50), "m": (500, 2500)}
+    monkeypatch.setattr(lattice, "SLAB", 3000)
+    for names, tolerance in ((("c", "U"), 1 / 256), (tuple(ranges), 1 / 32)):
+        asked = {name: ranges[name] for name in names}
+        whole = boundary(caravan, tolerance=tolerance, **asked)
+        with monkeypatch.context() as patch:
+            patch.setattr(module, "SMALL_GRID", 0)
+            sure = boundary(caravan, tolerance=tolerance, **asked)
+            patch.setattr(lattice, "WIDE", 0.1)  # excludes too little: given up
+            given_up = boundary(caravan, tolerance=tolerance, **asked)
+        np.testing.assert_allclose(np.sort(whole.points, axis=0), np.sort(sure.points, axis=0), rtol=1e-9)
+        np.testing.assert_array_equal(whole.points, given_up.points)
+        assert given_up.evaluations > whole.evaluations > (1 / tolerance + 1) ** len(names)
+
+
+class Shaped(Model):
+    """A mass whose damping has a shape over three numbers."""
+
+    m: float = param("kg", "mass", above=0)
+    k: float = param("N/m", "stiffness", above=0)
+    c: float = param("N s/m", "damping", above=0)
+    p: float = param("1", "first number")
+    q: float = param("1", "second number")
+    r: float = param("1", "third number")
+
+    x = coordinate("m", "displacement")
+
+    def matrices(self):
+        return [[self.k]], [[self.c * type(self).shape(self.p, self.q, self.r)]], [[self.m]]
+
+
+def island(p, q, r):
+    return (p - 0.31) ** 2 + (q - 0.47) ** 2 + (r - 0.5) ** 2 - 4e-4
+
+
+def cusp(p, q, r):
+    return (p - 0.3) ** 3 - (q - 0.4) ** 2 + 1e-3 * r
+
+
+def crossing(p, q, r):
+    return (p - 0.3) * (q - 0.4) - 0.01 * (r - 0.5)
+
+
+def nearly_touching(p, q, r):
+    return (q - 0.4 - 0.2 * p) ** 2 - 1e-5 + 0 * r
+
+
+def two_shells(p, q, r):
+    return ((p - 0.5) ** 2 + (q - 0.5) ** 2 + (r - 0.5) ** 2 - 0.1) ** 2 - 1e-5
+
+
+@pytest.mark.parametrize("small", [0, 2**19])
+@pytest.mark.parametrize("shape", [island, cusp, crossing, nearly_touching, two_shells])
+def test_islands_cusps_and_curves_that_touch(shape, small, monkeypatch):
+    monkeypatch.setattr(module, "SMALL_GRID", small)
+    model = type(shape.__name__, (Shaped,), {"shape": staticmethod(shape), "__doc__": "Damped."})
+    vehicle = model(m=1, k=1, c=1, p=0.5, q=0.5, r=0.5)
+    for ranges, tolerance in (
+        ({"p": (0, 1), "q": (0.02, 0.97)}, 1 / 256),
+        ({"p": (0, 1), "q": (0, 0.9), "r": (0, 1)}, 1 / 64),
+    ):
+        result = boundary(vehicle, tolerance=tolerance, **ranges)
+        wanted, n = cells_of_grid(vehicle, result)
+        assert wanted.any()
+        assert not (wanted & ~cells_of_points(result, n)).any()
+        p, q, r = (result.points[:, list(ranges).index(x)] if x in ranges else 0.5 for x in "pqr")
+        assert np.abs(shape(p, q, r)).max() < 1e-9
+
+
+@pytest.mark.parametrize("small", [0, 2**19])
+def test_twelve_states_over_three_parameters(small, monkeypatch):
+    monkeypatch.setattr(module, "SMALL_GRID", small)
+    truck = load("coach-truck")
+    ranges = {name: (0.4 * float(truck.values[name]), 2.2 * float(truck.values[name])) for name in ("V", "k_s", "m_f")}
+    result = boundary(truck, tolerance=1 / 16, **ranges)
+    wanted, n = cells_of_grid(truck, result)
+    assert wanted.any()
+    assert not (wanted & ~cells_of_points(result, n)).any()
 
 
 def test_few_evaluations_are_needed():
@@ -130,7 +202,10 @@ def test_a_point_of_a_curve_and_pictures():
     result = boundary(load("caravan"), c=(0, 8000), U="20:180 km/h", tolerance=1 / 64)
     assert "flutter" in str(result)
     assert result.to_dataframe().shape == (len(result.points), 5)
-    assert len(plot(result).axes[0].get_lines()) >= 2
+    drawn = plot(result).axes[0]
+    assert len(drawn.get_lines()) >= 2
+    assert {"stable", "unstable"} <= {text.get_text() for text in drawn.texts}
+    assert result.sides.stable.shape == (65, 65)
     assert plot(boundary(load("caravan"), c=(0, 8000), U=(5, 50), m=(500, 2500), tolerance=1 / 8)).axes
     nothing = boundary(load("understeering-car"), U=(1, 60), m=(500, 2500), tolerance=1 / 64)
     assert len(nothing.points) == 0 == len(nothing.lines)
@@ -148,7 +223,9 @@ def test_a_point_of_a_curve_and_pictures():
         ({"U": (5, 50), "m": (1, 2, 3)}, "both ends"),
         ({"U": "5:50:7", "m": (1, 2)}, "LO:HI"),
         ({"U": (-5, 50), "m": (1, 2)}, "must not cross 0"),
-        ({"U": (5, float("nan")), "m": (1, 2)}, "empty"),
+        ({"U": (5, float("nan")), "m": (1, 2)}, "finite"),
+        ({"U": (5, 50), "m": (1, "x")}, "must be a number"),
+        ({"U": (5, 50), "m": (1, 2), "tolerance": "x"}, "tolerance must be a number"),
         ({"U": (5, 50), "m": (1, 2), "tolerance": 1e-9}, "tolerance"),
     ],
 )

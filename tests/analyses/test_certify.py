@@ -4,10 +4,11 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ucrit import UcritError, certify, critical, find_model, load
+from ucrit import Model, UcritError, certify, coordinate, critical, find_model, load, param
 from ucrit.analyses.exact_ranges import exact_range
 from ucrit.catalogue import vehicle_names
 from ucrit.core.compiled import compiled, direction
@@ -170,6 +171,49 @@ def test_decimals_mean_what_they_say():
     assert exact_range("1e-999999999:1", "m", "x")[1] == 1
     found = certify(load("caravan"), {"b": ("0.3", "0.31"), "U": (5, 20)})
     assert found.ranges["b"] == (Fraction(3, 10), Fraction(31, 100))
+
+
+class Shaped(Model):
+    """A mass whose damping has a shape over two numbers."""
+
+    m: float = param("kg", "mass", above=0)
+    k: float = param("N/m", "stiffness", above=0)
+    c: float = param("N s/m", "damping", above=0)
+    p: float = param("1", "first number")
+    q: float = param("1", "second number")
+
+    x = coordinate("m", "displacement")
+
+    def matrices(self):
+        return [[self.k]], [[self.c * type(self).shape(self.p, self.q)]], [[self.m]]
+
+
+@pytest.mark.parametrize(
+    ("shape", "states"),
+    [
+        (lambda p, q: (p - 0.3) ** 2, "undecided"),  # touches, but nowhere in doubles
+        (lambda p, q: (p - 0.3) ** 2 + 1e-9, "proved"),
+        (lambda p, q: (p - 0.5123) ** 2 + (q - 0.3) ** 2 - 1e-12, "refuted"),
+        (lambda p, q: 2 - p - q, "undecided"),  # touches in a corner
+        (lambda p, q: 1 / (p - 0.4) ** 2, "undecided"),  # a pole between stable points
+        (lambda p, q: 1 + sp.tan(2 * p + q) ** 2, "undecided"),  # the same
+        (lambda p, q: 1 + sp.sqrt(p - 0.2), "undecided"),  # not defined everywhere
+        (lambda p, q: sp.sin(30 * p) + 1.00001, "proved"),
+        (lambda p, q: sp.sin(30 * p) + 0.99999, "refuted"),
+        (lambda p, q: abs(p - q) + 1e-9, "proved"),
+        (lambda p, q: abs(p - q) - 1e-9 * q, "refuted"),
+    ],
+)
+def test_poles_touching_boundaries_and_spikes_do_not_fool_it(shape, states):
+    model = type("Shape", (Shaped,), {"shape": staticmethod(shape), "__doc__": "Damped."})
+    found = certify(model(m=1, k=1, c=1, p=0.5, q=0.5), {"p": (0, 1), "q": (0, 1)}, boxes=3000)
+    assert found.state == states
+
+
+def test_what_cannot_be_enclosed_is_said():
+    model = type("Larger", (Shaped,), {"shape": staticmethod(lambda p, q: sp.Max(p, q)), "__doc__": "Damped."})
+    with pytest.raises(UcritError, match="contain maximum, whose range cannot be proved"):
+        certify(model(m=1, k=1, c=1, p=0.5, q=0.5), {"p": (0, 1)})
 
 
 @pytest.mark.parametrize(

@@ -1,5 +1,6 @@
 """Sources: of everything that is shipped, none made up, each work once."""
 
+import inspect
 import re
 from pathlib import Path
 
@@ -69,6 +70,21 @@ def test_each_work_of_the_bibliography_is_named_by_some_source():
         assert named or key == "ucrit", f"no source names {key}"
 
 
+def test_every_dated_source_of_an_analysis_leads_to_a_work():
+    functions = [name for name in ucrit._PUBLIC if inspect.isfunction(getattr(ucrit, name))]
+    named = {c.source for name in functions for c in cite(name) if not c.works}
+    assert {source for source in named if re.search(r"\b(18|19|20)\d\d\b", source)} <= {"K. Weierstrass 1891"}
+
+
+def test_what_is_not_checked_says_so():
+    known = works()
+    assert known["hurwitz-1895"].checked
+    assert "as commonly cited" not in str(known["hurwitz-1895"])
+    assert str(known["lanchester-1908"]).endswith("(as commonly cited)")
+    assert sum(work.checked for work in known.values()) > 2 * len(known) / 3
+    assert all(re.fullmatch(r"10\.\d{4,}/\S+", w.fields["doi"]) for w in known.values() if "doi" in w.fields)
+
+
 def test_sources_that_name_a_known_work_lead_to_it():
     assert works_in("Meijaard et al. 2007, table 2, v = 1 m/s") == ("meijaard-2007",)
     assert works_in("Assumed values; no particular cart was measured.") == ()
@@ -99,5 +115,5 @@ def test_what_is_not_there_is_told_in_a_sentence(tmp_path):
 def test_it_prints_and_shows():
     found = cite("bmw-320i")
     assert "    Karnopp 2004, eq. (6.17)" in str(found).splitlines()
-    assert '<th scope="row">vehicle bmw-320i</th>' in found._repr_html_()
+    assert ">vehicle bmw-320i</th>" in found._repr_html_()
     assert found.to_dict()["sources"][0]["works"] == ["althoff-2017"]

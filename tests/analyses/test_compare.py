@@ -80,7 +80,7 @@ def test_models_without_a_speed_and_equal_names():
 def test_html():
     html = compare(load("understeering-car"), load("oversteering-car"))._repr_html_()
     assert html.startswith("<table>")
-    assert '<th scope="col">Oversteering car</th>' in html
+    assert ">Oversteering car</th>" in html
 
 
 @pytest.mark.parametrize(

@@ -90,7 +90,8 @@ TOO_LONG = (
     "car-four-wheels",
     "car-trailer",
     "rail-truck",
-    load("oversteering-car-in-sliding-mode").model_id(),
+    "car-split-friction",
+    load("car-with-stability-control").model_id(),
 )
 
 

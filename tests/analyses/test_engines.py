@@ -1,9 +1,11 @@
 """All engines give one answer, that of exact arithmetic, on random models and exactly on boundaries."""
 
+import math
 import os
 import subprocess
 import sys
 from fractions import Fraction
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -14,7 +16,8 @@ from ucrit import Model, UcritError, coordinate, find_model, load, param, stabil
 from ucrit.analyses import judge
 from ucrit.analyses.judge import settle
 from ucrit.analyses.modes import eigenvalues, growth
-from ucrit.core import kernels
+from ucrit.core import kernels, rows
+from ucrit.core.compiled import compiled
 from ucrit.core.errors import MissingExtraError
 
 pytest.importorskip("numba")
@@ -102,6 +105,105 @@ def test_exactly_marginal_points_are_not_stable(engine):
         assert at == (Fraction(float(x)) * Fraction(0.1) * Fraction(0.3) > Fraction(float(x) * 0.1 * 0.3))
 
 
+class Cascade(Model):
+    """Three equal oscillators, each driving the next: triple eigenvalues with one eigenvector."""
+
+    m: float = param("kg", "mass", above=0)
+    k: float = param("N/m", "stiffness", above=0)
+    c: float = param("N s/m", "damping")
+    f: float = param("N/m", "drive")
+
+    x = coordinate("m", "first displacement")
+    y = coordinate("m", "second displacement")
+    z = coordinate("m", "third displacement")
+
+    def matrices(self):
+        m, k, c, f = self.m, self.k, self.c, self.f
+        K = [[k, 0, 0], [-f, k, 0], [0, -f, k]]
+        return K, [[c, 0, 0], [0, c, 0], [0, 0, c]], [[m, 0, 0], [0, m, 0], [0, 0, m]]
+
+
+class Coupled(Model):
+    """Two masses with inertial coupling, whose mass matrix may be singular."""
+
+    m: float = param("kg", "mass", above=0)
+    n: float = param("kg", "other mass", above=0)
+    s: float = param("kg", "coupling")
+    c: float = param("N s/m", "damping", above=0)
+    k: float = param("N/m", "stiffness", above=0)
+
+    x = coordinate("m", "first displacement")
+    y = coordinate("m", "second displacement")
+
+    def matrices(self):
+        return [[2 * self.k, 0], [0, 3 * self.k]], [[self.c, 0], [0, self.c]], [[self.m, self.s], [self.s, self.n]]
+
+
+def exactly(vehicle, **grid):
+    """Verdicts in rational numbers, point by point."""
+    functions = compiled(type(vehicle))
+    (outer, x), (inner, y) = grid.items()
+    at = [[judge._exactly(functions, {**vehicle.values, outer: a, inner: b}) for b in y] for a in x]
+    return np.array(at)
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_coinciding_eigenvalues_do_not_decide(engine):
+    grid = {"f": [0.5, 2.0], "c": np.concatenate([-(10.0 ** np.arange(-16, 0)), [0.0], 10.0 ** np.arange(-16, 0)])}
+    vehicle = Cascade(m=1.1, k=1.3, c=0, f=2)
+    for order in (grid, dict(reversed(grid.items()))):
+        np.testing.assert_array_equal(stability_map(vehicle, engine=engine, **order).stable, exactly(vehicle, **order))
+
+
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_roots_next_to_infinity(engine):
+    random = np.random.default_rng(0)
+    for _ in range(12):
+        s, m = random.uniform(0.5, 2, 2)
+        vehicle = Coupled(m=m, n=1, s=s, c=0.3, k=1)
+        grid = {"n": np.unique(s * s / m * (1 + 1.1e-16 * np.arange(-6, 7))), "c": np.array([0.3, 0.6])}
+        for order in (grid, dict(reversed(grid.items()))):
+            stable = stability_map(vehicle, engine=engine, **order).stable
+            np.testing.assert_array_equal(stable, exactly(vehicle, **order))
+
+
+def test_rows_are_polynomials_where_the_inner_parameter_allows_it():
+    bicycle, names = load("benchmark-bicycle"), ("U", "lambda_", "c")
+    for inner, row in (("U", True), ("lambda_", False), ("c", True)):
+        made = kernels.body(compiled(type(bicycle)), list(bicycle.values).index(inner))
+        assert bool(made.row) is row
+        outer = next(n for n in names if n != inner)
+        grid = {outer: np.linspace(0.5, 1.4, 9), inner: np.linspace(0.1, 1.4, 31)}
+        one, two = (stability_map(bicycle, engine=e, **grid).stable for e in ("numpy", "numba"))
+        np.testing.assert_array_equal(one, two)
+
+
+@pytest.mark.parametrize(
+    ("text", "at", "expected"),
+    [
+        ("(-(v0 - 2*v1)*v0/4 + v1**3, )", (3.0, 5.0), -(3 - 10) * 3 / 4 + 125),
+        ("(v1*numpy.where((v1 < 2), v1, 7)*v0*v0, )", (3.0, 5.0), 5 * 7 * 9),
+        ("(v0*abs(v1 - 9) + numpy.maximum(v1, numpy.minimum(v1, 8)), )", (3.0, 5.0), 3 * 4 + 5),
+        ("((v0*v0 - v0*v0)*numpy.cos(numpy.pi*v1), )", (3.0, 5.0), 0),
+    ],
+)
+def test_polynomials_along_rows(text, at, expected):
+    functions = SimpleNamespace(
+        source=f"def coefficients(g0):\n    v0, v1, = g0\n    return {text}\n", structural_zeros=0, undamped=False
+    )
+    made = rows.Rows()
+    (polynomial,) = rows.polynomials(functions, 0, made)
+    names = {"math": math, "v1": at[1], "x": at[0]}
+    exec("\n".join(made.steps), names)
+    assert eval(made.horner(polynomial), names) == pytest.approx(expected)
+    functions.source = functions.source.replace("v0", "numpy.arcsin(v0)", 2).replace("numpy.arcsin(v0)", "v0", 1)
+    with pytest.raises(rows.NotAPolynomialError):
+        rows.polynomials(functions, 0, rows.Rows())
+    functions.source = functions.source.replace("return (", "return (numpy.sign(v1)*")
+    with pytest.raises(UcritError, match="do not know the function sign"):
+        rows.polynomials(functions, None, rows.Rows())
+
+
 @pytest.mark.parametrize("engine", ["numpy", "numba"])
 def test_extreme_numbers(engine):
     caravan = load("caravan")
@@ -174,3 +276,22 @@ def test_the_kernel_for_gpus_in_numbas_simulator():
         check=False,
     )
     assert done.returncode == 0, done.stderr
+
+
+def test_the_kernel_compiles_for_gpus_that_are_not_there():
+    """Where NVIDIA's compiler is installed, a device is not needed for that."""
+    import numba
+    from numba import cuda
+
+    row, table = numba.float64[::1], numba.float64[:, ::1]
+    given = (row, row, numba.int64[::1], table, numba.int64, row, numba.uint8[:, ::1])
+    for name, outer, inner in (("caravan", "c", "U"), ("chain", "k", "c")):
+        vehicle = Chain(m=1, k=1, c=0.1, f=0.3) if name == "chain" else load(name)
+        names, made = list(vehicle.values), {}
+        exec(kernels.source(compiled(type(vehicle)), (names.index(outer),), names.index(inner), "cuda"), made)
+        try:
+            text, _ = cuda.compile_ptx(made["kernel"], given, cc=(9, 0))
+        except (ImportError, OSError, cuda.cudadrv.error.NvvmSupportError) as error:
+            pytest.skip(f"needs NVIDIA's compiler: {error}")
+        assert "fma.rn.f64" in text
+        assert "sm_90" in text

@@ -168,3 +168,53 @@ def test_unlike_units_in_an_event_and_wrong_words_are_refused():
         event(1, ends=True, after={"x": {"a": 1}})
     with pytest.raises(ModelError, match="no argument 'y'"):
         type("Odd", (Unlike,), {"events": lambda self, y: {}})
+
+
+def braked(torque):
+    """Return a car on four wheels, braked on its left wheels."""
+    car = load("four-wheel-car-on-brush-tires")
+    return simulate(car, 3, inputs={"brake_fl": torque, "brake_rl": torque}, method="LSODA", tolerance=1e-7)
+
+
+def test_a_car_tells_which_wheels_lock_and_ends_before_it_stands():
+    names = [e.name for e in braked(3000).events]
+    assert {"locks its front left wheel", "locks its rear left wheel"} <= set(names)
+    assert not any("right" in name for name in names if "locks" in name)
+    assert not [e for e in braked(300).events if "locks" in e.name]
+    car = load("four-wheel-car-on-brush-tires")
+    stop = simulate(car, 20, inputs={f"brake_{wheel}": 900 for wheel in ("fl", "fr", "rl", "rr")}, tolerance=1e-7)
+    assert stop.ended == "has slowed to a tenth of its speed"
+
+
+def test_a_high_van_lifts_its_inner_wheels_and_rolls_over_and_a_low_one_does_not():
+    """At the lateral acceleration of statics, g t/(2 h)."""
+    van, dwell = load("high-van"), {"delta_f": "dwell 8 deg at 1 s"}
+    high, low = (simulate(v, 6, inputs=dwell, tolerance=1e-8) for v in (van, van.with_(h=0.8)))
+    assert [e.name for e in high.events] == ["lifts its front left wheel", "rolls over onto its right side"]
+    assert high.ended == "rolls over onto its right side"
+    assert abs(high["A_y"][-1]) == pytest.approx(van.g * van.t_f / (2 * van.h), rel=1e-6)
+    assert not low.events
+    mirrored = simulate(van, 6, inputs={"delta_f": "dwell -8 deg at 1 s"}, tolerance=1e-8)
+    assert mirrored.ended == "rolls over onto its left side"
+    assert mirrored.times[-1] == pytest.approx(high.times[-1], rel=1e-7)
+
+
+def test_a_wheelset_tells_which_flange_touches():
+    wheelset = load("worn-wheelset", {"V": 45})
+    events = simulate(wheelset, 0.5, {"y": 0.0079}).events
+    assert [e.name.split()[-2] for e in events] == ["right", "left"] * 2 + ["right"]
+    for e in events:
+        assert abs(e.states["y"]) == pytest.approx(wheelset.clearance, rel=1e-12)
+        assert e.states["y"] * e.states["y'"] > 0
+
+
+def test_events_are_in_the_files(tmp_path):
+    fall = simulate(load("motorcycle-lean"), 5, {"theta": [0.0, 0.1, -0.2]})
+    data = fall.to_xarray()
+    assert data["event name"].values.tolist() == ["falls over"] * 2
+    assert data["event time"].values.tolist() == [e.time for e in fall.events]
+    assert data["event initial theta"].values.tolist() == [-0.2, 0.1]
+    fall.to_netcdf(tmp_path / "fall.nc")
+    fall.to_mat(tmp_path / "fall.mat")
+    assert '"falls over"' in fall.to_json()
+    assert "event" not in fall.to_dataframe().columns

@@ -66,6 +66,28 @@ def test_a_car_of_equal_axles_is_neutral_and_slides_on_both():
     assert found.largest == pytest.approx(0.9 * car.g, rel=0.01)
 
 
+def test_a_limit_that_is_not_reached_is_not_denied():
+    clipped = {"front": "clipped", "rear": "clipped", "front_c_M": 0, "rear_c_M": 0}
+    car = load("spinning-car", {**clipped, "front_c_F": 12, "rear_c_F": 12})
+    text = str(handling_diagram(car))
+    assert "the limit is not known: the turns could not be followed to it" in text
+    assert max(map(len, text.splitlines())) <= 80
+
+
+@pytest.mark.parametrize("tire", ["brush-degressive", "dugoff", "pac2002-235-60r16", "pacejka-205-60r15"])
+@pytest.mark.parametrize(("axle", "limit"), [("front", "plough-out"), ("rear", "spin")])
+def test_the_axle_with_less_grip_gives_way_first_whatever_the_tires(tire, axle, limit):
+    more = {"brush-degressive": {"C_max": 8e4, "F_max": 8e3, "mu": 0.9}, "dugoff": {"C": 4e4, "mu": 0.9}}.get(tire, {})
+    friction = "LMUY" if tire.startswith("pac") else "mu"
+    values = {f"{place}_{name}": value for place in ("front", "rear") for name, value in more.items()}
+    car = load("spinning-car", {"front": tire, "rear": tire, **values, f"{axle}_{friction}": 0.6})
+    found = handling_diagram(car)
+    assert found.limit == limit
+    assert found.largest == pytest.approx(found.a_y.max())
+    crest = np.flatnonzero(np.diff(np.sign(np.diff(found.delta))) < 0)
+    assert bool(crest.size) == (limit == "spin") == bool(np.isfinite(found.unstable_from))
+
+
 def test_linear_tires_have_no_limit():
     found = handling_diagram(load("understeering-car"))
     assert found.limit == ""
@@ -102,6 +124,8 @@ def test_the_drawing_has_the_curves(spinning):
     assert axles.get_xlabel() == "slip angle [deg]"
     (shade,) = [p for p in steer.patches if p.get_gid() == "unstable"]
     assert shade.get_x() == pytest.approx(spinning.ranges[2].curvature[0])
+    wheelbase = spinning.vehicle.a + spinning.vehicle.b
+    assert drawn["neutral"][-1, 1] == pytest.approx(np.rad2deg(wheelbase * spinning.curvature[-1]), rel=5e-3)
 
 
 def test_families_are_drawn_with_their_changes(spinning):

@@ -117,6 +117,7 @@ def test_a_table_with_units_is_its_straight_lines(tmp_path):
         ("time [s],delta [deg]\n0,1\n1,2\n", "has no column 'delta_f'; did you mean 'delta'?"),
         ("time [s],delta_f [m]\n0,1\n5,2\n", "delta_f is measured in rad, got '0 m'"),
         ("time [s],delta_f [rad]\n0,1\n5,two\n", "delta_f, line 3: a finite number is needed, got 'two'"),
+        ("time [s];delta_f [rad]\n0;0,1\n1;0,2\n", "columns parted by commas and decimal points, got semicolons"),
         ("time [s],delta_f [rad]\n0,1\n5\n", "line 3: 2 columns are headed, got 1"),
         ("time [s],delta_f [rad]\n0,1\n5,1\n4,1\n", "line 4: times must ascend, got 4 s after 5 s"),
         ("time [s],delta_f [rad]\n0,1\n1,2\n", "must cover 0 s to 3 s, it goes from 0 s to 1 s"),

@@ -84,3 +84,14 @@ def test_a_model_without_speed_is_remedied_at_its_point():
 def test_an_empty_range_of_speeds_is_refused():
     with pytest.raises(UcritError, match="empty range"):
         remedies(load("caravan"), upto=10.0, since=12.0)
+
+
+def test_a_remedy_is_told_with_digits_that_help():
+    found = remedies(load("caravan"))
+    for remedy in found:
+        word, text = remedy.told()
+        assert float(text) >= remedy.value if word == "at least" else float(text) <= remedy.value
+        assert float(text) == pytest.approx(remedy.value, rel=1e-5)
+        assert f"{word} {text} " in str(remedy)
+    assert {r.parameter: r.told()[1] for r in found}["c"] == "9045.09"
+    assert found.vehicle == load("caravan")

@@ -178,7 +178,7 @@ def test_other_jobs_and_other_folders_are_left_alone(tmp_path):
         ({"c": []}, "needs several values here, got an empty range"),
         ({"c": [1, float("nan")]}, "must be finite, got nan"),
         ({"x": [1, 2]}, "there is no parameter 'x'"),
-        ({"c": np.arange(2_000_000), "chunk": 1}, "are allowed: take larger chunks"),
+        ({"c": np.arange(2_000_000), "chunk": 1}, "are allowed: take fewer points, or larger chunks"),
         ({"client": "tcp://127.0.0.1:9"}, "no scheduler answers at 'tcp://127.0.0.1:9'"),
         ({"client": 3}, "client must be a dask.distributed.Client or an address, got 3"),
         ({"client": "nonsense://x"}, "no scheduler answers at 'nonsense://x'"),
@@ -190,6 +190,7 @@ def test_wrong_input_is_refused_in_a_sentence(options, message, tmp_path, monkey
         stream(CARAVAN, tmp_path / "x", **{**RANGES, **options})
     assert message in str(caught.value)
     assert "\n" not in str(caught.value)
+    assert not (tmp_path / "x").exists()
 
 
 def test_a_scheduler_that_dies_leaves_what_is_done(tmp_path, monkeypatch):

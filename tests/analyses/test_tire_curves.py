@@ -44,6 +44,22 @@ def test_the_envelope_stays_within_friction():
     assert size[0, 0, -1].min() > 3190
 
 
+def test_the_limit_of_friction_is_the_brushs_circle_and_near_an_ellipse():
+    round_ = tire_curves(BRUSH, [2000, 4000])
+    np.testing.assert_allclose(np.hypot(round_.limit_x, round_.limit_y)[0, 1], 3200, rtol=1e-3)
+    for name in ("pac2002-235-60r16", "pacejka-205-60r15", "hmmwv-pac89"):
+        curves = tire_curves(tire(name), [4000])
+        x, y = curves.limit_x[0, 0], -curves.limit_y[0, 0]
+        assert (x[0], x[-1], y.max()) == pytest.approx((x.min(), x.max(), curves.peak_side[0][0, 0]), rel=0.03)
+        assert x[-1] == pytest.approx(curves.F_x.max(), rel=5e-3)
+        ellipse = np.hypot(x / x.max(), y / y.max())
+        assert 0.85 < ellipse.min() <= ellipse.max() < 1.15
+        for theta in np.linspace(0, np.pi, 7):  # nothing reaches beyond
+            direction = np.cos(theta), np.sin(theta)
+            inside = curves.envelope_x * direction[0] - curves.envelope_y * direction[1]
+            assert inside.max() <= (x * direction[0] + y * direction[1]).max() * (1 + 2e-3)
+
+
 def test_tables(tmp_path):
     curves = tire_curves(MF, [2000, 4000], ROADS, kappa=[-1, 0, 1])
     found = curves.to_xarray()
@@ -86,7 +102,13 @@ def test_the_drawing_has_the_curves():
     figure = plot_tire(curves)
     side, load, along, both = figure.get_axes()
     np.testing.assert_allclose(side.lines[1].get_ydata(), -curves.F_y[0, 1] / 4000)
-    np.testing.assert_allclose(both.lines[0].get_xdata(), curves.envelope_x[0, 1, 0] / 1000)
+    drawn = {line.get_gid(): line for line in both.lines}
+    np.testing.assert_allclose(drawn["limit"].get_xdata(), curves.limit_x[0, 1] / 1000)
+    np.testing.assert_allclose(both.lines[1].get_xdata(), curves.envelope_x[0, 1, 0] / 1000)
+    np.testing.assert_allclose(drawn["locked"].get_ydata(), -curves.envelope_y[0, 1, :, 0] / 1000)
+    np.testing.assert_allclose(drawn["spinning"].get_xdata(), curves.envelope_x[0, 1, :, -1] / 1000)
+    linear = plot_tire(tire_curves(tire("linear", C=60_000))).get_axes()[3]
+    assert "limit" not in {line.get_gid() for line in linear.lines}
     assert len(load.lines) == 4
     assert along.lines[0].get_ydata().max() == pytest.approx(curves.peak_braking[0][0, 0] / 2000, rel=1e-3)
     assert len(ucrit.plot(tire_curves(BRUSH, [4000], ROADS)).get_axes()[0].lines) == 2

@@ -14,9 +14,9 @@ from ucrit.bondgraph.equations import state_equations
 from ucrit.checks.bonds import bond_graph_in_motion
 from ucrit.checks.report import FailedCheckError
 from ucrit.checks.subject import Subject
+from ucrit.core.characteristic import characteristic_polynomial
 from ucrit.core.derive import symbolic
 from ucrit.core.functions import tanh
-from ucrit.core.linear import characteristic_polynomial
 from ucrit.models.car import Car
 from ucrit.models.caster_flexible_sidewall import CasterFlexibleSidewall
 from ucrit.models.caster_relaxation import CasterRelaxation

@@ -277,3 +277,15 @@ def test_the_map_of_the_report_is_chosen(run: Run, tmp_path: Path) -> None:
     assert "did you mean 'm'?" in refused.stderr
     assert not (tmp_path / "s.html").exists()
     assert run("analyze", "caravan", "--map", "a", "m").exit_code == 2
+
+
+def test_margins_are_printed_tabled_and_drawn(run, tmp_path):
+    rear = "motorcycle-steered-at-the-rear"
+    assert "at delta_r: gain times 0.4941 to 3.488" in run("margins", rear).output
+    assert run("margins", rear, "U=20:30:3").output.count("True") == 3
+    for name in ("m.png", "m.csv"):
+        assert run("margins", rear, "U=10:75:14", "--out", tmp_path / name).exit_code == 0
+        assert (tmp_path / name).stat().st_size > 500
+    refused = run("margins", "motorcycle-steered-at-both-ends", "--out", tmp_path / "n.png")
+    assert refused.exit_code == 2
+    assert "choose --input delta_f or --input delta_r" in refused.output

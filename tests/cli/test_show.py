@@ -68,3 +68,20 @@ def test_shows_in_a_notebook() -> None:
     assert "<math" in found._repr_html_()
     assert found.equations[0]._repr_latex_().startswith("$")
     assert "hitch to centre of mass" in str(found)
+    assert "<math" in found.polynomial._repr_html_()
+    assert "s^{4}" in found.polynomial._repr_latex_()
+    assert str(found.polynomial).splitlines()[0] == "a_0 = C*U*k*(a + b)"
+
+
+def test_shows_how_well_parameters_are_known(run) -> None:
+    printed = " ".join(run("show", "caravan").stdout.split())
+    assert "mass (sd 60); above 0" in printed
+    assert "lateral stiffness of the hitch (from 4000 to 6000); above 0" in printed
+    assert "m and I_c are correlated: 0.7" in printed
+    assert "sd 60" not in run("show", "trailer").stdout
+    vehicle = show("caravan").to_dict()["vehicle"]
+    assert vehicle["tolerances"]["m"] == {"sd": 60.0}
+    assert vehicle["tolerances"]["k"] == {"min": 4000.0, "max": 6000.0}
+    assert vehicle["correlations"] == [["m", "I_c", 0.7]]
+    assert "from 4000 to 6000" in load("caravan")._repr_html_()
+    assert "tolerance" not in load("bmw-320i")._repr_html_()

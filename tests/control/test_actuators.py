@@ -60,7 +60,7 @@ def test_a_loop_that_is_cut_returns_what_the_law_asks_for():
 def test_the_delay_margin_is_where_the_exact_motion_begins_to_grow(T, share):
     """Share: +1 where the oscillation dies out, -1 where it grows."""
     late = T * float(margins(MOTORCYCLE, "delta_f").delay)
-    moved = simulate_delayed(MOTORCYCLE, "delta_f", late, 8, {"theta": 1e-4}, tolerance=1e-8)
+    moved = simulate_delayed(MOTORCYCLE, {"delta_f": late}, 8, {"theta": 1e-4}, tolerance=1e-8)
     early, later = abs(moved["theta"][100:200]).max(), abs(moved["theta"][300:]).max()
     assert share * (early - later) > 0.1 * early
 
@@ -68,7 +68,7 @@ def test_the_delay_margin_is_where_the_exact_motion_begins_to_grow(T, share):
 def test_a_delayed_motion_is_that_of_the_linear_equation_with_delay():
     """The upright motorcycle for one delay: no steering comes back yet; then that of the first delay."""
     late, start = 0.2, 1e-6
-    moved = simulate_delayed(MOTORCYCLE, "delta_f", late, 0.4, {"theta": start}, times=[0.2, 0.4])
+    moved = simulate_delayed(MOTORCYCLE, {"delta_f": late}, 0.4, {"theta": start}, times=[0.2, 0.4])
     A, B, _, _ = state_space(type(MOTORCYCLE)._plant(**{k: v for k, v in MOTORCYCLE.values.items() if k != "G"}))
     first = scipy.linalg.expm(A * late) @ [start, 0]
 
@@ -87,8 +87,8 @@ def test_a_delayed_motion_is_that_of_the_linear_equation_with_delay():
         (lambda: delay(CAR, "delta_f", 0), "whole number from 1 to 12, got 0"),
         (lambda: delay(CAR, "delta_f", "two"), "whole number from 1 to 12, got 'two'"),
         (lambda: close(CAR, lag(CAR, "delta_f"), tau_delta_f=0), "must be above 0 s"),
-        (lambda: simulate_delayed(MOTORCYCLE, "delta_f", 0, 1), "delay must be above 0 s"),
-        (lambda: simulate_delayed(MOTORCYCLE, "delta_r", 0.1, 1), "driven inputs: delta_f"),
+        (lambda: simulate_delayed(MOTORCYCLE, {"delta_f": 0}, 1), "delay must be above 0 s"),
+        (lambda: simulate_delayed(MOTORCYCLE, {"delta": 0.1}, 1), "driven inputs: delta_f"),
         (lambda: ucrit.catalogue.controlled(type(CAR), ("lagg(delta_f)",)), r"no controller 'lagg\(delta_f\)'"),
         (lambda: ucrit.catalogue.controlled(type(CAR), ("lag(delta_f, 2, 3)",)), "3 arguments are not what lag takes"),
     ],

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 import ucrit
 from ucrit import Model, UcritError, coordinate, input, load, param, state
 from ucrit.catalogue import load as load_vehicle
-from ucrit.control import close, kalman, lqr, observer, place, state_feedback
+from ucrit.control import close, kalman, lqr, observer, place, reaching_time, state_feedback
 from ucrit.core.compiled import state_space
 from ucrit.core.files import write_vehicle
 
@@ -127,8 +127,8 @@ def test_a_motion_that_cannot_be_moved_may_stay_where_it_is():
     [
         (lambda: place(TWO, "F", [-1, -2, -3]), "F cannot move the motion of eigenvalue 4 1/s, most of it in z"),
         (lambda: lqr(TWO, "F", [1, 1, 1], 1), "F cannot move the motion of eigenvalue 4 1/s"),
-        (lambda: observer(TWO, "x", [-1, -2, -3]), "x do not show the motion of eigenvalue 4 1/s, most of it in z"),
-        (lambda: place(CAR, "delta_f", [-1]), "as many poles as states, 2, got 1"),
+        (lambda: observer(TWO, "x", [-1, -2, -3]), "x does not show the motion of eigenvalue 4 1/s, most of it in z"),
+        (lambda: place(CAR, "delta_f", [-1]), r"as many poles as states, 2 \(V, r\), got 1"),
         (lambda: place(CAR, "delta_f", [-1 + 1j, -2]), r"pole -1\+1j 1/s needs its conjugate"),
         (lambda: place(CAR, "delta_f", ["fast", -2]), "poles must be a list of complex numbers"),
         (lambda: place(CAR, "delta_q", [-1, -2]), "there is no input 'delta_q'; did you mean"),
@@ -138,8 +138,15 @@ def test_a_motion_that_cannot_be_moved_may_stay_where_it_is():
         (lambda: observer(CAR, "speed", [-1, -2]), "no state or output 'speed' to measure"),
         (lambda: observer(CAR, "r", [-1, -2], own=["Cf"]), "there is no parameter 'Cf'"),
         (lambda: lqr(CAR, "delta_f", {"rr": 1}, 1), "Q: there is no 'rr'"),
-        (lambda: lqr(CAR, "delta_f", {"r": 1}, 0), "R must be symmetric and above 0"),
-        (lambda: lqr(CAR, "delta_f", {"r": -1}, 1), "Q must be symmetric and at least 0"),
+        (lambda: lqr(CAR, "delta_f", {"r": 1}, 0), "R: the weight of delta_f must be above 0, got 0"),
+        (lambda: lqr(CAR, "delta_f", {"r": -1}, 1), "Q: the weight of r must be at least 0, got -1"),
+        (lambda: lqr(CAR, "delta_f", {"r": "big"}, 1), "Q: the weight of r must be a number, got 'big'"),
+        (lambda: lqr(CAR, "delta_f", [[1, 2], [0, 1]], 1), "Q must be symmetric"),
+        (lambda: place(CAR, 3, [-1, -2]), "inputs must be a name or a list of names, got 3"),
+        (lambda: place(CAR, "delta_f", [-1e12, -2e12]), "cannot move poles as far as -2e[+]12 1/s"),
+        (lambda: close(type(CAR), state_feedback(CAR, "delta_f")), "close takes a vehicle"),
+        (lambda: reaching_time(float("nan"), 1), "S must be a finite number, got nan"),
+        (lambda: reaching_time(1, 1, q=-1), "q must be a finite number of at least 0, got -1"),
         (lambda: state_feedback(CAR), "name at least one input"),
         (lambda: state_feedback(CAR, "delta_f", states=["W"]), "there is no state 'W'"),
         (lambda: close(CAR, state_feedback(CAR, "delta_f"), K_delta_f_W=1), "there is no parameter 'K_delta_f_W'"),

@@ -64,10 +64,54 @@ def test_the_surface_is_reached_and_kept_under_disturbance_and_with_another_mass
     assert abs(early["S"][-1]) > 1e-3
 
 
-def test_the_law_that_jumps_reaches_the_surface_at_the_same_time():
+@settings(max_examples=8, deadline=None)
+@given(
+    S=st.floats(-3, 3).filter(lambda S: abs(S) > 0.01),
+    q=st.floats(0, 5),
+    push=st.floats(-1.5, 1.5),
+    m=st.floats(0.8, 1.25),
+)
+def test_the_law_that_jumps_reaches_the_surface_at_the_time_of_the_closed_form_and_keeps_it(S, q, push, m):
+    held = slide(MASS, "F", {"V": 1.0}, alpha=2.0, phi=None, q=q, own=["m"]).with_(m=m)
+    expected = reaching_time(S, 2.0 / m, q / m, push / m * np.sign(S))
+    moved = simulate(held, expected + 0.5, {"V": S}, {"D": push})
+    assert moved.events[-1].name.startswith("reaches S = 0")
+    assert moved.events[-1].time == pytest.approx(expected, abs=1e-9)
+    after = moved.times > expected + 1e-9
+    assert abs(moved["S"][after]).max() < 1e-11
+    np.testing.assert_allclose(moved["F"][after], -push, atol=1e-9)  # the equivalent control
+
+
+def test_along_the_surface_the_motion_is_of_first_order():
     held = slide(MASS, "F", {"V": 1.0, "X": 2.0}, alpha=4.0, phi=None)
-    moved = simulate(held, 0.4999, {"X": 1.0}, times=[0.25, 0.49], tolerance=1e-8)
-    np.testing.assert_allclose(moved["S"], [1.0, 0.04], atol=1e-9)
+    moved = simulate(held, 3, {"X": 1.0}, {"D": lambda t: np.sin(3 * t)}, times=[1.0, 2.0])
+    start = simulate(held, 1, {"X": 1.0}, {"D": lambda t: np.sin(3 * t)}).events[-1]
+    np.testing.assert_allclose(moved["X"], start.states["X"] * np.exp(-2 * (moved.times - start.time)), rtol=1e-10)
+
+
+def test_the_surface_is_left_where_the_disturbance_is_larger_than_alpha_and_reached_again():
+    held = slide(MASS, "F", {"V": 1.0}, alpha=2.0, phi=None)
+    moved = simulate(held, 3.5, {"V": 0.5}, {"D": lambda t: 3 * np.sin(t)})
+    left = next(e.time for e in moved.events if e.name == "leaves S = 0")
+    assert left == pytest.approx(np.arcsin(2 / 3), abs=1e-9)
+    assert moved.events[-1].name == "reaches S = 0 from above"
+    back = moved.events[-1].time  # the integral of 3 sin t - 2 is zero between
+    assert 3 * (np.cos(left) - np.cos(back)) == pytest.approx(2 * (back - left), abs=1e-8)
+
+
+def test_many_start_at_once():
+    held = slide(MASS, "F", {"V": 1.0}, alpha=2.0, phi=None)
+    moved = simulate(held, 2, {"V": [-1.0, 0.0, 2.0]}, times=[0.25, 2.0])
+    np.testing.assert_allclose(moved["S"], [[-0.5, 0], [0, 0], [1.5, 0]], atol=1e-11)
+
+
+def test_the_non_linear_car_slides_with_another_mass_and_other_tires():
+    held = slide(CAR, "delta_f", "r", alpha=1.5, phi=None, reference=NEUTRAL, own=["m", "C_f"])
+    moved = simulate(held.with_(m=1.2 * CAR.m, C_f=0.9 * CAR.C_f), 2, {"r": 0.2}, {"delta_f": 0.01})
+    reached = moved.events[-1]
+    assert reached.name == "reaches S = 0 from above"
+    assert abs(moved["S"][moved.times > reached.time]).max() < 1e-10
+    np.testing.assert_allclose(abs(ucrit.modes(held).eigenvalues).min(), 0, atol=1e-9)
 
 
 @settings(max_examples=20, deadline=None)
@@ -120,6 +164,10 @@ def test_file_and_class_of_the_catalogue_are_the_same(tmp_path):
     [
         (lambda: sliding(MASS, "F", "X"), "F does not change X at once"),
         (lambda: sliding(MASS, "F"), "name the states"),
+        (
+            lambda: slide(close(CAR, lag(CAR, "delta_f"), tau_delta_f=0.02), "delta_f", "r", alpha=1, phi=None),
+            r"behind lag\(delta_f\) a law that jumps would chatter",
+        ),
         (lambda: sliding(CAR, "delta_f", "rr"), "there is no state 'rr'"),
         (lambda: slide(CAR, "delta_f", "r", alpha=-1, phi=0.1), "must be at least 0"),
         (lambda: slide(MASS, "F", {"V": 1.0, "X": -1.0}, alpha=1, phi=0.1), "zero at 1 1/s, in the right half plane"),

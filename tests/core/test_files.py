@@ -122,3 +122,37 @@ def test_binary_files_are_not_text(tmp_path):
     (tmp_path / "x.toml").write_bytes(b"\xff\xfe\x00\x01")
     with pytest.raises(UcritError, match="not a text file"):
         load(tmp_path / "x.toml")
+
+
+def test_a_byte_order_mark_is_not_part_of_the_file(tmp_path):
+    text = 'model = "trailer-kinematic"\n[parameters]\na = 3\nb = 0.5\nU = 20\n'
+    (tmp_path / "x.toml").write_text(text, encoding="utf-8-sig")
+    assert load(tmp_path / "x.toml").values["a"] == 3
+    (tmp_path / "y.toml").write_text(text + "self = 1\n", encoding="utf-8")
+    with pytest.raises(UcritError, match="there is no parameter 'self'"):
+        load(tmp_path / "y.toml")
+
+
+def test_a_change_puts_a_tire_into_a_slot(tmp_path, monkeypatch):
+    """Of the file's values those stay that the new law has; a path of the command line begins where that is typed."""
+    from ucrit.catalogue import TIRES, VEHICLES, load, read_vehicle
+
+    car, other = load("spinning-car"), load("spinning-car", {"front": "dugoff", "rear": "linear"})
+    assert other.ingredients()["parts"] == {"front": "dugoff", "rear": "linear"}
+    assert (other.front_C, other.front_mu, other.rear_C) == (car.front_C, car.front_mu, car.rear_C)
+    assert "rear_mu" not in other.values
+    (tmp_path / "mine.tir").write_text((TIRES / "pacejka-205-60r15.tir").read_text())
+    monkeypatch.chdir(tmp_path)
+    mine = load("spinning-car", {"front": "mine.tir:SLIP=angle"})
+    assert mine.ingredients()["parts"]["front"] == "mine.tir:SLIP=angle"
+    text = (VEHICLES / "spinning-car.toml").read_text()
+    for change, message in (
+        ({"front": "bruch"}, "there is no tire law 'bruch'; did you mean 'brush'"),
+        ({"front": 5}, "part front must be the name of a law in quotes, got 5"),
+        ({"front": "brush-moment"}, "half length of the contact patch front_l_c is missing"),
+        ({"front": "linear", "front_mu": 1}, "there is no parameter 'front_mu'"),
+    ):
+        with pytest.raises(UcritError, match=message):
+            load("spinning-car", change)
+    with pytest.raises(UcritError, match=r"'mine\.tir:SLIP=angle' is a file; name a law or a tire of the catalogue"):
+        read_vehicle(text, "pasted", {"front": "mine.tir:SLIP=angle"})

@@ -10,10 +10,11 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from ucrit.catalogue import find_model, load, model_names
+from ucrit.core.characteristic import characteristic_polynomial
 from ucrit.core.compiled import coefficients, compiled, state_space
 from ucrit.core.errors import ModelError, UcritError
 from ucrit.core.explicit import explicit
-from ucrit.core.linear import LinearSystem, characteristic_polynomial
+from ucrit.core.linear import LinearSystem
 
 
 def system_of(matrices):

@@ -101,7 +101,7 @@ def test_vehicles_compare_hash_pickle_and_print():
     assert hash(slider) == hash(Slider(m=[1, 2], U=3))
     assert slider != Slider(m=[1, 3], U=3)
     assert repr(slider) == "Slider(m=[1 ... 2, 2 values], k=100, phi=0, U=3)"
-    assert "<td>stiffness</td>" in slider._repr_html_()
+    assert ">stiffness</td>" in slider._repr_html_()
 
 
 def test_a_subclass_may_fix_or_remove_a_parameter():

@@ -6,7 +6,7 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ucrit.core.codegen import build, generate
+from ucrit.core.codegen import build, generate, renaming, write
 from ucrit.core.functions import length, maximum, minimum, where
 from ucrit.core.plane import Length, Share, computable
 from ucrit.core.rings import polynomial_field
@@ -55,6 +55,19 @@ def test_slopes_piece_by_piece_are_the_slopes(values):
             expected = formula.diff(variable).xreplace({**point, P: sp.Integer(2)})
             got = sp.sympify(found.get((i, j), 0)).xreplace({P: sp.Integer(2)})
             assert float(got) == pytest.approx(float(expected), rel=1e-9, abs=1e-9)
+
+
+def test_a_branch_that_does_not_count_may_have_no_slope():
+    root = sp.sqrt(X**2 + Y**2)
+    share = sp.Piecewise((1 - root / 3, root > 0), (1, True))
+    staged = staged_slopes([2 * X * (share + share**2), share**2], [X, Y])
+    renamed = renaming([[X, Y]])
+    steps = [(symbol, value.xreplace(renamed)) for symbol, value in staged.steps]
+    slopes = [slope.xreplace(renamed) for slope in staged.slopes.values()]
+    with np.errstate(all="ignore"):
+        found = build(write("f", [2], steps, slopes), "f")(np.zeros(2))
+    assert np.isfinite(found).all()
+    assert dict(zip(staged.slopes, found, strict=True))[0, 0] == 4
 
 
 def test_slopes_that_are_zero_are_not_kept():

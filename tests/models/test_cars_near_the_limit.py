@@ -193,3 +193,65 @@ def test_the_four_wheel_car_on_tires_that_friction_limits_is_the_linear_one_in_g
     report = check(car)
     assert report.ok, str(report)
     assert "published for these parts" in str(report)
+
+
+ROLLING = {
+    "linear": {"C": 5e4},
+    "degressive": {"C_max": 8e4, "F_max": 8e3},
+    "brush": {"C": 6e4, "mu": 0.8},
+    "brush-degressive": {"C_max": 8e4, "F_max": 8e3, "mu": 0.8},
+    "brush-moment": {"C": 6e4, "mu": 0.8, "l_c": 0.08},
+    "dugoff": {"C": 6e4, "mu": 0.8},
+    "clipped": {"c_F": 12, "c_M": 0.3},
+    "hmmwv-pac89": {},
+    "pac2002-235-60r16": {},
+    "pacejka-205-60r15:SLIP=angle": {},
+}
+"""A tire of every law, as the command line names it."""
+
+
+def on(slot, name):
+    """Changes that put a tire into a slot."""
+    return {slot: name, **{f"{slot}_{key}": value for key, value in ROLLING[name].items()}}
+
+
+def test_every_law_is_tried():
+    from ucrit.catalogue import part_names
+
+    assert set(part_names(Tire)) - {"magic-formula", "magic-formula-89"} <= set(ROLLING)
+
+
+@pytest.mark.parametrize("number", range(len(ROLLING)))
+def test_any_tire_on_each_axle_linearises_to_the_linear_vehicle(number):
+    front, rear = list(ROLLING)[number], list(ROLLING)[number - 3]
+    car = load("spinning-car", {**on("front", front), **on("rear", rear)})
+    load_ = car.m * car.g / (2 * (car.a + car.b))
+    same = {name: car.values[name] for name in ("m", "I_z", "a", "b", "U")}
+    C_f, C_r = car.front.cornering_coefficient(load_ * car.b), car.rear.cornering_coefficient(load_ * car.a)
+    linear = find_model("car")(**same, C_f=2 * float(C_f), C_r=2 * float(C_r))
+    for mine, expected in zip(state_space(car)[:2], state_space(linear)[:2], strict=True):
+        np.testing.assert_allclose(mine, expected, rtol=1e-9, atol=1e-11)
+    for name, plain in (
+        ("caravan-on-brush-tires", "trailer"),
+        ("caster-on-brush-tire", "caster-flexible-pivot-damped"),
+    ):
+        towed = load(name, on("tire", front))
+        kept = {n: towed.values[n] for n in find_model(plain).declaration.parameters if n in towed.values}
+        same = find_model(plain)(**kept, C=float(towed.tire.cornering_coefficient(towed.F_z)))
+        np.testing.assert_allclose(modes(towed).eigenvalues, modes(same).eigenvalues, rtol=1e-9, atol=1e-9)
+
+
+@pytest.mark.parametrize("along", ["delta_f", "a_y", "curvature", "U"])
+@pytest.mark.parametrize("tire", ["pac2002-235-60r16", "pacejka-205-60r15:SLIP=angle"])
+def test_families_go_through_folds_in_steer_angle_acceleration_curvature_and_speed(tire, along):
+    less = {"rear_LMUY": 0.6, "U": 5 if along == "U" else 30}
+    car = load("spinning-car", {**on("front", tire), **on("rear", tire), **less})
+    held = {} if along != "U" else {"curvature": 1 / 80}
+    free = () if along == "delta_f" else ("delta_f",)
+    within = {"alpha_f": (-0.3, 0.3), "alpha_r": (-0.3, 0.3)}
+    turns = steady_family(car, along, {"U": 80}.get(along, 20), free=free, hold=held, within=within)
+    assert len(turns.folds) >= 1
+    assert turns[along].max() <= turns.folds[0] * (1 + 1e-9) <= turns[along].max() * 1.003  # between two points
+    assert turns[along][-1] < 0.9999 * turns[along].max()
+    assert turns.stable[0]
+    assert not turns.stable[-1]

@@ -61,12 +61,13 @@ def changed(tmp_path):
 @pytest.mark.parametrize("name", tire_names())
 def test_shipped_files(name):
     found = read_tir(TIRES / f"{name}.tir")
-    assert "x forward, y to the left, z up" in found.axes
+    of_1989 = found.formulas == "1989"
+    assert ("the side force goes with the slip angle" if of_1989 else "x forward, y to the left, z up") in found.axes
     assert found.units["LENGTH"] == "meter"
     assert any("Source" in line for line in found.comments)
     law = found.law()
     assert law is found.law()
-    assert law.parameters["FNOMIN"].default == found.values["FNOMIN"]
+    assert of_1989 or law.parameters["FNOMIN"].default == found.values["FNOMIN"]
 
 
 def test_versions_and_units_are_told(changed):
@@ -108,6 +109,26 @@ def test_what_is_wrong_is_named(changed, old, new, message):
     with pytest.raises(UcritError, match=message) as found:
         changed(old, new)
     assert len(str(found.value).splitlines()) == 1
+
+
+def test_a_file_of_the_formula_of_1989(tmp_path):
+    text = (TIRES / "hmmwv-pac89.tir").read_text()
+    assert read_tir(TIRES / "hmmwv-pac89.tir").version == "PAC89 (Pacejka '89)"
+    for key, value, message in (
+        ("a4", "", r"section \[LATERAL_COEFFICIENTS\]: key A4 is missing"),
+        ("b2", "", r"section \[LONGITUDINAL_COEFFICIENTS\]: key B2 is missing"),
+        ("c9", "c9 = x\n", r"section \[ALIGNING_COEFFICIENTS\]: C9 must be a number, got 'x'"),
+    ):
+        (tmp_path / "mine.tir").write_text(re.sub(rf"^{key} .*\n", value, text, flags=re.MULTILINE))
+        with pytest.raises(UcritError, match=message):
+            read_tir(tmp_path / "mine.tir")
+    (tmp_path / "mine.tir").write_text(re.sub(r"^a9 .*\n", "a9 = 0.1\n", text, flags=re.MULTILINE))
+    law = read_tir(tmp_path / "mine.tir").law
+    assert law()().side_force(4000, 0.0) == 0 != law(symmetric=False)().side_force(4000, 0.0)
+    turned = ucrit.tire("hmmwv-pac89:MOMENT=-1")
+    assert turned.forces(4000, 0.05).M_z == -ucrit.tire("hmmwv-pac89").forces(4000, 0.05).M_z
+    with pytest.raises(UcritError, match="hmmwv-pac89: there is no switch SLIP"):
+        ucrit.tire("hmmwv-pac89:SLIP=angle")
 
 
 def test_what_is_no_file(tmp_path):

@@ -1,6 +1,9 @@
 """Laws of tire forces: what every law must do, and what single laws are known for."""
 
 import pickle
+import tomllib
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +15,7 @@ import ucrit
 from ucrit import Model, UcritError, input, param, slot, speed, state
 from ucrit.catalogue import TIRES, find_part, part_names, tire_names
 from ucrit.core.motion import motion
-from ucrit.parts.tires import Tire, axle_coefficient, slip_angle
+from ucrit.parts.tires import Tire, axle_coefficient, magic_formula, slip_angle
 from ucrit.parts.tires.brush import Brush
 from ucrit.parts.tires.brush_moment import BrushMoment
 from ucrit.parts.tires.dugoff import Dugoff
@@ -49,6 +52,8 @@ COEFFICIENTS_89 = {
     "c9": -1.3329,
 }
 OLD = MagicFormula89.of(COEFFICIENTS_89)
+OTHERS = tomllib.loads((Path(__file__).parent / "other_programs.toml").read_text())
+ARMS = ("SSZ1", "SSZ2", "SSZ3", "SSZ4")
 
 EVERY = {
     "linear": ucrit.tire("linear", C=60_000),
@@ -212,22 +217,39 @@ def test_published_force_of_pacejkas_own_tire():
     assert law(symmetric=False, SLIP="angle")().side_force(4000, 0.05) == pytest.approx(-2083.134, abs=1e-3)
 
 
-@pytest.mark.parametrize(
-    ("kappa", "alpha", "gamma", "F_z", "F_x", "F_y"),
-    [
-        (-0.5, 0.0, 0.0, 2000.0, -1986.1194085661953, -88.25461910604399),
-        (0.0, 0.10471975511965978, 0.0, 2000.0, -59.00611273085508, -1800.3150677461022),
-        (0.0, -0.2617993877991494, 0.0, 4000.0, -31.618926807264177, 4139.999982840628),
-        (-0.3, -0.13962634015954636, 0.0, 4000.0, -3852.5413913017182, 1712.9103114386708),
-        (0.05, 0.03490658503988659, 0.0, 4000.0, 3026.296411329449, -1291.3060220469745),
-        (0.0, 0.0, -0.06981317007977318, 4000.0, -172.00946110146887, 298.65793759288755),
-        (0.0, 0.0, 0.10471975511965978, 4000.0, -172.00946110146887, -342.6937330970982),
-    ],
-)
-def test_another_program_gives_the_same_forces(kappa, alpha, gamma, F_z, F_x, F_y):
-    """Numbers of an independent public program for the same table, which follows the edition of 2006."""
-    tire = read_tir(TIRES / "pacejka-205-60r15.tir").law(symmetric=False, LEAN="square")()
-    assert tire.forces(F_z, alpha, kappa, gamma)[:2] == pytest.approx((F_x, F_y), rel=1e-5)
+def by_other_program(table, *, without=(), **switches):
+    """Return what another program gives, (N, 3), and what the same tire's law gives with these switches."""
+    found = OTHERS[table]
+    file = read_tir(TIRES / f"{found['tire']}.tir")
+    file = replace(file, values={**file.values, **dict.fromkeys(without, 0.0)})
+    kappa, alpha, gamma, F_z, *theirs = np.array(found["rows"]).T
+    law = file.law(symmetric=False, **switches)
+    one_by_one = [law().forces(*row) for row in zip(F_z, alpha, kappa, gamma, strict=True)]
+    return np.array(theirs).T, np.array(one_by_one, dtype=float)
+
+
+def test_forces_and_moment_of_the_edition_of_2006():
+    """Another program's; its cosine of the slip angle is smaller by a guard against standstill."""
+    chosen = {"LEAN": "quotient", "TRAIL": "leaning"}
+    theirs, ours = by_other_program("edition-2006", **chosen)
+    _, armless = by_other_program("edition-2006", without=ARMS, **chosen)
+    V = OTHERS["edition-2006"]["speed"] / np.cos(np.array(OTHERS["edition-2006"]["rows"])[:, 1])
+    ours[:, 2] -= (1 - V / (V + 0.1)) * armless[:, 2]
+    np.testing.assert_allclose(ours, theirs, rtol=3e-9, atol=3e-8)
+
+
+@pytest.mark.parametrize("version", ["mfeval", "mfeval-5_2"])
+def test_forces_and_moment_of_mfeval(version):
+    chosen = {"TRAIL": "mixed", "GROWTH": "signed", "BRAKED": "angle", "ARMS": "plain"}
+    theirs, ours = by_other_program(version, SLIP="angle", CAMBER="angle", **chosen)
+    np.testing.assert_allclose(ours, theirs, rtol=1e-10, atol=1e-9)
+
+
+@pytest.mark.parametrize(("table", "without"), [("edition-2012", ARMS[2:]), ("edition-2012-pure", ARMS)])
+def test_forces_and_moment_of_a_program_after_the_edition_of_2012(table, without):
+    """It mixes alpha (in the pure side force) with tan alpha, and its arm of F_x takes no camber: 0.3 % remain."""
+    theirs, ours = by_other_program(table, without=without, REST="upright", COSINES=2)
+    np.testing.assert_allclose(ours, theirs, rtol=4e-3, atol=2e-2)
 
 
 def test_a_symmetric_tire_is_near_the_mean_of_tire_and_mirror_image():
@@ -244,15 +266,42 @@ def test_a_symmetric_tire_is_near_the_mean_of_tire_and_mirror_image():
     [
         ("SLIP", "angle", (True, True, True)),
         ("CAMBER", "angle", (False, True, True)),
-        ("LEAN", "square", (False, True, True)),
+        ("LEAN", "quotient", (False, True, True)),
         ("TRAIL", "leaning", (False, False, True)),
+        ("TRAIL", "mixed", (False, False, True)),
+        ("GROWTH", "signed", (False, False, True)),
+        ("REST", "upright", (False, False, True)),
+        ("COSINES", 2, (False, False, True)),
+        ("BRAKED", "angle", (False, False, True)),
+        ("ARMS", "plain", (False, False, True)),
         ("MOMENT", -1, (False, False, True)),
     ],
 )
 def test_each_switch_changes_what_it_says(switch, value, changes):
     file = read_tir(TIRES / "pacejka-205-60r15.tir")
-    book, other = (law().forces(4000, 0.06, 0.02, 0.05) for law in (file.law(), file.law(**{switch: value})))
+    file = replace(file, values={**file.values, "RBY4": 30.0, "LFZO": 0.9, "QDZ3": 0.1})
+    laws = file.law(symmetric=False), file.law(symmetric=False, **{switch: value})
+    book, other = (law().forces(4000, 0.06, 0.02, -0.05) for law in laws)
     assert tuple(a != b for a, b in zip(book, other, strict=True)) == changes
+
+
+def test_every_switch_is_tried_and_told():
+    (mark,) = test_each_switch_changes_what_it_says.pytestmark
+    tried = {case[0] for case in mark.args[1]}
+    elsewhere = {"FORMULAS", "SIDE", "SYMMETRIC"}
+    assert tried | elsewhere == set(MagicFormula.switches)
+    table = magic_formula.__doc__
+    assert all(f"\n{name} " in table for name in MagicFormula.switches)
+    named = ucrit.tire("pacejka-205-60r15:measured:SLIP=angle:COSINES=2")
+    assert named.side_force(4000, 0.05) == pytest.approx(-2083.134, abs=1e-3)
+    assert type(named).part_id() == "pacejka-205-60r15:measured:SLIP=angle:COSINES=2"
+    for wrong, message in (
+        ("SLOP=angle", "there is no switch SLOP; did you mean 'SLIP'"),
+        ("SLIP=tangens", "switch SLIP cannot be 'tangens'; did you mean 'tangent'"),
+        ("COSINES=3", "switch COSINES cannot be 3; allowed: 1, 2"),
+    ):
+        with pytest.raises(UcritError, match=message):
+            ucrit.tire(f"pacejka-205-60r15:{wrong}")
 
 
 def test_relaxation_lengths():

@@ -2,7 +2,10 @@
 
 import json
 import re
+import subprocess
+import sys
 
+import matplotlib as mpl
 import numpy as np
 import pytest
 from PIL import Image
@@ -10,6 +13,8 @@ from PIL import Image
 from ucrit import UcritError, animate, load, modes, plot, simulate
 from ucrit.analyses.scene import mode_scene, scene
 from ucrit.plots import animation, draw_frame
+from ucrit.plots.animation import encoder
+from ucrit.plots.camera import frame_times
 
 
 @pytest.fixture(scope="module")
@@ -91,11 +96,33 @@ def test_a_name_that_could_be_markup_is_only_text(fall, tmp_path):
     assert text.count("</script>") == 1
 
 
+def test_an_mp4_film_has_all_frames_and_moves(fall, tmp_path):
+    animate(fall, tmp_path / "a.mp4")
+    shown = ["-vf", "scale=64:64", "-f", "rawvideo", "-pix_fmt", "gray", "-"]
+    decoded = subprocess.run([encoder(), "-i", tmp_path / "a.mp4", *shown], capture_output=True, check=True)
+    frames = np.frombuffer(decoded.stdout, np.uint8).reshape(-1, 64, 64).astype(int)
+    assert b"h264" in decoded.stderr
+    assert b"yuv420p" in decoded.stderr  # what browsers play
+    assert len(frames) == len(frame_times(0.0, fall.times[-1]))
+    assert np.abs(frames[-1] - frames[0]).max() > 50
+
+
+def test_an_encoder_that_fails_is_told(fall, tmp_path, monkeypatch):
+    broken = tmp_path / "ffmpeg"
+    broken.write_text("#!/bin/sh\nexit 1\n")
+    broken.chmod(0o755)
+    monkeypatch.setitem(mpl.rcParams, "animation.ffmpeg_path", str(broken))
+    with pytest.raises(UcritError, match="ffmpeg could not write the film"):
+        animate(fall, tmp_path / "a.mp4")
+    assert not (tmp_path / "a.mp4").exists()
+
+
 def test_what_cannot_be_written_is_refused(fall, tmp_path, monkeypatch):
     with pytest.raises(UcritError, match=r"ends in \.gif, \.mp4, \.html, got 'a\.avi'"):
         animate(fall, "a.avi")
-    monkeypatch.setattr("matplotlib.animation.FFMpegWriter.isAvailable", classmethod(lambda cls: False))
-    with pytest.raises(UcritError, match="needs ffmpeg, which is not installed"):
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    with pytest.raises(UcritError, match=r"an MP4 film needs ffmpeg: install it, or pip install 'ucrit\[film\]'"):
         animate(fall, tmp_path / "a.mp4")
     with pytest.raises(UcritError, match="enlarge goes with a simulation"):
         animate(scene(fall), tmp_path / "a.gif", enlarge=2)

@@ -17,7 +17,7 @@ def test_long_sums_are_broken_before_signs():
 
 def test_text_becomes_a_formula():
     root = ElementTree.fromstring(formulas.from_text("C*(a + b)**2*k - 2*I_c/3"))
-    assert "".join(root.itertext()).replace(formulas.INVISIBLE_TIMES, "") == "C(a+b)2k-2Ic3"
+    assert "".join(root.itertext()).replace(formulas.INVISIBLE_TIMES, "") == f"C(a+b)2k{formulas.MINUS}2Ic3"
     assert [element.tag for element in root.iter() if element.tag in ("msup", "msub", "mfrac")] == [
         "msup",
         "mfrac",
@@ -27,4 +27,13 @@ def test_text_becomes_a_formula():
 
 def test_a_negative_sum_keeps_its_brackets():
     root = ElementTree.fromstring(formulas.from_text("a - (b - c)"))
-    assert "".join(root.itertext()) == "a-(b-c)"
+    assert "".join(root.itertext()) == f"a{formulas.MINUS}(b{formulas.MINUS}c)"
+
+
+def test_functions_keep_their_distance_and_low_brackets_their_size():
+    given = "<mi>C</mi><mrow><mi>cos</mi><mrow><mo>(</mo><mi>x</mi><mo>)</mo></mrow></mrow>"
+    tall = "<mrow><mo>(</mo><mfrac><mi>a</mi><mi>b</mi></mfrac><mo>)</mo></mrow>"
+    root = ElementTree.fromstring(formulas.formula(given + tall))
+    cosine = next(e for e in root.iter() if e.text == "cos")
+    assert (cosine.tag, cosine.get("lspace")) == ("mo", "0.17em")
+    assert [e.get("stretchy") for e in root.iter() if e.text in ("(", ")")] == ["false", "false", None, None]

@@ -126,6 +126,72 @@ def test_a_vehicle_file_that_was_downloaded_can_be_loaded(name: str) -> None:
     assert type(again) is type(load(name))
 
 
+TOLERANT = """model = "trailer-kinematic"
+[parameters]
+a = { value = 3, sd = 0.1 }
+b = { value = 0.5, min = 0.4, max = 0.6 }
+U = 20
+[correlations]
+a = { b = 0.3 }
+"""
+
+
+def test_tolerances_are_told_and_kept_where_they_still_hold() -> None:
+    known = {p["name"]: p["known"] for p in answers.opened(read_subject({"toml": TOLERANT}), {})["parameters"]}
+    assert known == {"a": {"sd": 0.1, "range": None}, "b": {"sd": None, "range": [0.4, 0.6]}, "U": None}
+
+    def again(**values: float) -> Any:
+        changed = read_subject({"toml": TOLERANT, "values": values})
+        return read_subject({"toml": downloads.download(changed, {"kind": "toml"}).content.decode()})
+
+    assert again(a=3.5).info.tolerances == read_subject({"toml": TOLERANT}).info.tolerances
+    assert again(b=0.7).values["b"] == 0.7
+    assert again(b=0.7).info.tolerances.names == ("a",)
+    assert again(b=0.7).info.tolerances.correlations == ()
+
+
+def test_tolerances_are_told_as_a_chance(ask: Any) -> None:
+    told = ask("/api/sure", {**CARAVAN, "units": "mph", "values": {"U": 25}}).json()["sentence"]
+    found = ucrit.uncertainty(load("caravan", {"U": 25}))
+    assert f"critical speed {found.quantile(0.5) / 0.44704:.4g} mph in the middle" in told
+    assert f"unstable at 55.92 mph in {100 * found.probability(25):.3g} % of all" in told
+    assert ask("/api/sure", {"vehicle": "wheelset"}).json() == {"sentence": ""}
+    outside = {"values": {name: 5 * load("caravan").values[name] for name in ("b", "k", "c")}}
+    assert "standard" not in ask("/api/sure", {**CARAVAN, **outside}).json()["sentence"]
+
+
+def test_laws_and_controllers_are_told() -> None:
+    assert answers.opened(load("caravan-on-brush-tires"), {})["made"] == "the axle's tires: brush"
+    assert "controllers: wheel-slip-control, stab" in answers.opened(load("car-with-stability-control"), {})["made"]
+
+
+@pytest.mark.parametrize("units", answers.SPEEDS)
+def test_sentences_say_speeds_in_the_units_of_the_page(ask: Any, units: str) -> None:
+    told = ask("/api/state", {**CARAVAN, "units": units}).json()
+    size = {"si": "27.78 m/s (100 km/h)", "kmh": "100 km/h", "mph": "62.14 mph"}[units]
+    assert told["word"] == f"Unstable at {size}"
+    said = {"si": "23.24 m/s (83.6 km/h)", "kmh": "83.65 km/h", "mph": "51.98 mph"}[units]
+    assert told["sentence"].startswith(f"Stable up to {said}; above it")
+    assert told["analysis"]["verdict"]["sentence"] == ucrit.analyze("caravan").sentence
+
+
+def test_a_visitor_does_not_wait_for_the_formulas_of_another_model() -> None:
+    inside, go, told = threading.Event(), threading.Event(), list[str]()
+
+    def slow(*_: Any) -> str:
+        inside.set()
+        go.wait(20)
+        return "slow"
+
+    first = threading.Thread(target=lambda: told.append(routes._worked("try", slow, load("caravan"), {})))
+    first.start()
+    assert inside.wait(20)
+    told.append(routes._worked("try", lambda *_: "quick", load("wheelset"), {}))
+    go.set()
+    first.join()
+    assert told == ["quick", "slow"]
+
+
 def test_visitors_do_not_disturb_one_another(ask: Any) -> None:
     speeds = [10.0 + k for k in range(24)]
     told: dict[float, float] = {}
@@ -182,6 +248,11 @@ BAD = {
     "no text": ({"toml": 3}, "text of at most"),
     "a Python file": ({"toml": 'model = "evil.py"\n[parameters]'}, "'evil.py' is a file"),
     "a class in a file": ({"toml": 'model = "/tmp/evil.py:X"\n[parameters]'}, "is a file"),
+    "a bond graph": ({"toml": 'model = "/etc/passwd.bonds"\n[parameters]'}, "is a file"),
+    "a folder": ({"toml": 'model = "../../car"\n[parameters]'}, "is a file"),
+    "self in a file": ({"toml": 'model = "car"\n[parameters]\nself = 2'}, "there is no parameter 'self'"),
+    "units": ({"vehicle": "caravan", "units": "furlongs"}, "there are no units 'furlongs'"),
+    "a file too long": ({"toml": "a." * 20000 + "b = 1"}, "at most 32 kB"),
     "a module": ({"toml": 'model = "os"\n[parameters]'}, "there is no model 'os'"),
     "a tire file": (
         {"toml": 'model = "car"\n[parts]\nfront = "/etc/x.tir"\n[parameters]'},

@@ -165,6 +165,59 @@ def test_a_link_restores_the_state(open_page: Open) -> None:
     assert again.page.locator("#locus .line.pinned").count() > 0
 
 
+def test_the_present_vehicle_can_be_changed_as_a_file(open_page: Open) -> None:
+    page = open_page("#v=caravan&p.a=3.9&units=mph")
+    assert "standard deviation 60 kg" in page.text(".row[aria-label=m]").replace("\xa0", " ")
+    page.page.click("#load")
+    page.page.wait_for_selector("#dialog[open]")
+    text = page.page.input_value("#text")
+    assert "a = 3.9" in text
+    page.page.fill("#text", text.replace("sd = 60.0", "sd = 45.0"))
+    page.change(lambda: page.page.click("#dialog-open"))
+    assert "standard deviation 45 kg" in page.text(".row[aria-label=m]").replace("\xa0", " ")
+    assert page.text("#word").endswith("mph") or page.text("#word") == "Stable"
+    assert stored(page)["a"] == 3.9
+
+
+def test_a_range_that_is_shown_in_other_units_stays_as_it_is(open_page: Open) -> None:
+    page = open_page("#v=caravan&units=mph&p.a=3.5")
+    assert page.text("#word") == "Unstable at 62.14 mph"
+
+    def low() -> str:
+        return parse_qs(page.page.evaluate("location.hash.slice(1)"))["from"][0]
+
+    before = low()
+    page.page.fill("#to", "80")
+    page.change(lambda: page.page.locator("#to").press("Enter"))
+    assert low() == before
+
+
+def test_the_table_of_modes_fits_a_tablet(open_page: Open) -> None:
+    page = open_page()
+    for width in (834, 1440):
+        page.page.set_viewport_size({"width": width, "height": 900})
+        wide = page.page.locator("#modes-card .table").evaluate("e => [e.scrollWidth, e.clientWidth]")
+        assert wide[0] <= wide[1], width
+
+
+def test_the_parameters_never_cover_the_equations(open_page: Open) -> None:
+    page = open_page()
+    page.page.click("#equations summary")
+    page.page.wait_for_selector("#derivation math")
+    page.page.evaluate("scrollTo(0, document.documentElement.scrollHeight)")
+    boxes = [page.page.locator(s).bounding_box() for s in ("#parameters", "#equations-card")]
+    assert boxes[0]["y"] + boxes[0]["height"] <= boxes[1]["y"]
+
+
+def test_the_keyboard_stays_where_a_remedy_was_chosen(open_page: Open) -> None:
+    page = open_page()
+    page.page.wait_for_selector("#remedies button")
+    page.page.locator("#remedies button").first.focus()
+    page.page.keyboard.press("Enter")
+    page.page.wait_for_selector("#remedies:has-text('Nothing needs changing')")
+    assert page.page.evaluate("document.activeElement.id") == "remedies"
+
+
 WRONG_LINKS = {
     "#v=nothing": "There is no vehicle 'nothing'",
     "#v=caravan&p.m=heavy": "p.m must be a number, got 'heavy'",
@@ -211,6 +264,7 @@ def test_a_click_on_the_map_moves_the_vehicle(open_page: Open) -> None:
     box = page.page.locator("#map svg").bounding_box()
     page.change(lambda: page.page.mouse.click(box["x"] + 0.5 * box["width"], box["y"] + 0.3 * box["height"]))
     values = stored(page)
+    assert page.text("#map .readout") == ""
     assert 20 < values["U"] < 30
     assert values["a"] > 6
     assert eigenvalues(page) == expected(load("caravan").with_(**values))
@@ -230,6 +284,12 @@ def test_the_speed_range_and_the_parameter_along_can_be_chosen(open_page: Open) 
     assert "c = 9045.08 N m s/rad" in shown[0].replace("\xa0", " ")
 
 
+def drawn(plot: Any) -> str:
+    """Return what a plot shows, without the point that is read."""
+    content: str = plot.inner_html()
+    return content.partition('<g class="cursor">')[0]
+
+
 def test_plots_are_read_and_zoomed_by_keyboard(open_page: Open) -> None:
     page = open_page()
     plot = page.page.locator("#locus svg")
@@ -237,11 +297,22 @@ def test_plots_are_read_and_zoomed_by_keyboard(open_page: Open) -> None:
     plot.focus()
     page.page.keyboard.press("ArrowRight")
     assert re.search(r"oscillation: .* 1/s at U = .* m/s", page.text("#locus .readout").replace("\xa0", " "))
-    whole = plot.inner_html()
+    whole = drawn(plot)
     page.page.keyboard.press("+")
-    assert plot.inner_html() != whole
+    assert drawn(plot) != whole
     page.page.keyboard.press("0")
-    assert plot.inner_html() == whole
+    assert drawn(plot) == whole
+    page.page.keyboard.press("Shift+ArrowLeft")
+    assert drawn(plot) != whole
+    page.page.keyboard.press("Escape")
+    box = plot.bounding_box()
+    page.page.mouse.move(box["x"] + 200, box["y"] + 100)
+    page.page.keyboard.down("Control")
+    page.page.mouse.wheel(0, -300)
+    page.page.keyboard.up("Control")
+    page.page.wait_for_function("old => !document.querySelector('#locus svg').innerHTML.startsWith(old)", arg=whole)
+    page.page.locator("#locus svg").dblclick(position={"x": 200, "y": 100})
+    assert drawn(plot) == whole
 
 
 def test_the_motion_is_played_when_asked(open_page: Open) -> None:

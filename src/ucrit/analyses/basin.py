@@ -114,9 +114,9 @@ def basin(
     cycles = limit_cycles(vehicle) if cycles is None else cycles
     value = float(vehicle.values[cycles.parameter])
     place = value_text(cycles, value)
-    here = cycles.at(value)
     if not any(low < value < high for low, high in cycles.critical.stable_ranges()):
         raise UcritError(f"{model.model_id()}: straight running is unstable at {place}: every disturbance grows")
+    here = cycles.at(value)
     border = [c for c in here if not c.stable]
     if not border:
         raise UcritError(f"{model.model_id()}: no unstable limit cycle is found at {place}: every disturbance dies out")

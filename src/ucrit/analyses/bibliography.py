@@ -24,7 +24,10 @@ KINDS = {
 }
 """BibTeX's names for the types of works."""
 
-FIELDS = ("journal", "booktitle", "edition", "volume", "number", "pages", "version", "license", "year")
+FIELDS = (
+    *("journal", "booktitle", "edition", "publisher", "volume", "number", "pages"),
+    *("version", "license", "year", "doi"),
+)
 SPECIAL = str.maketrans({c: f"\\{c}" for c in "&%#_$"})
 
 
@@ -43,7 +46,9 @@ class Work:
     title
         As on its title page.
     fields
-        Journal, volume, pages, year and so on, as far as they are known.
+        Journal, volume, pages, year, DOI and so on, as far as they are known.
+    checked
+        Whether all that agrees with references to the work in public documents; otherwise it is as commonly cited.
     """
 
     key: str
@@ -51,6 +56,7 @@ class Work:
     author: tuple[str, ...]
     title: str
     fields: Mapping[str, str]
+    checked: bool = False
 
     def bibtex(self) -> str:
         """Return the work as a BibTeX entry."""
@@ -64,10 +70,12 @@ class Work:
 
     def __str__(self) -> str:
         names = [name for name in FIELDS if name in self.fields and name not in ("version", "license")]
-        told = [f"{self.fields[n]} edition" if n == "edition" else self.fields[n] for n in names]
+        words = {"edition": "{} edition", "number": "no. {}" if self.kind == "article" else "{}", "doi": "doi:{}"}
+        told = [words.get(name, "{}").format(self.fields[name]) for name in names]
         if "version" in self.fields:
             told.append(f"version {self.fields['version']}")
-        return f"{', '.join([*self.author, self.title, *told])}"
+        unsure = "" if self.checked or self.key == SOFTWARE else " (as commonly cited)"
+        return f"{', '.join([*self.author, self.title, *told])}{unsure}"
 
 
 def _whole(author: str) -> str:
@@ -80,7 +88,7 @@ def works() -> Mapping[str, Work]:
     """Return all works of the bibliography by key.
 
     >>> print(works()["karnopp-2004"])
-    D. Karnopp, Vehicle Stability, 2004
+    D. Karnopp, Vehicle Stability, 2004 (as commonly cited)
     """
     return {key: _work(key, entry) for key, entry in _content().items()}
 
@@ -110,4 +118,4 @@ def _work(key: str, entry: Mapping[str, Any]) -> Work:
         from importlib import import_module
 
         fields["version"] = import_module("ucrit").__version__
-    return Work(key, entry["type"], tuple(entry["author"]), entry["title"], fields)
+    return Work(key, entry["type"], tuple(entry["author"]), entry["title"], fields, entry.get("checked", False))

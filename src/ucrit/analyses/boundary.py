@@ -1,13 +1,14 @@
 """Curves and surfaces in parameter space on which stability changes, without judging the area between.
 
 Cells in which a boundary cannot run are excluded by enclosures of the stability conditions, the others halved; in
-the smallest that are left the boundary is found to many digits.
+the smallest that are left the boundary is found to many digits. Where the grid of the smallest cells is small, or
+enclosures exclude too little of it, it is judged as a whole, so that nothing is missed that it shows.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -17,12 +18,14 @@ from ..core.codegen import build
 from ..core.compiled import Compiled, compiled, deciding, direction
 from ..core.errors import UcritError
 from ..core.model import Model
-from ..numerics.enclosures import Enclosure, EnclosureFunctions
+from ..core.units import to_si
+from ..numerics.enclosures import Enclosure, EnclosureFunctions, excluded
 from ..numerics.rounded import conditions
 from .boundary_result import StabilityBoundary, in_lines
-from .judge import BLOCK, certain, settle
-from .lattice import Lattice, corners, crossed, simplices, subdivided
+from .judge import BLOCK, decide, judged_points, settle
+from .lattice import Lattice, crossed, differing, simplices, subdivided
 from .ranges import parse_range
+from .stability_map import StabilityMap
 
 Array = npt.NDArray[np.float64]
 Places = npt.NDArray[np.int64]
@@ -32,6 +35,12 @@ FINEST = {2: 2**14, 3: 2**9}
 
 USUAL = {2: 1 / 512, 3: 1 / 64}
 """Tolerances where none is given."""
+
+SMALL_GRID = 2**19
+"""Points of a grid that are judged faster than cells are excluded."""
+
+SIDES = 128
+"""Cells of each axis of the coarse map."""
 
 WITHIN = 1e-9
 """How far a point may be from the boundary, as a share of the smallest cell."""
@@ -48,8 +57,8 @@ def boundary(
         With scalar parameters.
     tolerance
         Share of each range down to which boundaries are looked for, 1/512 by default for two parameters and 1/64
-        for three; the next lower power of two is taken. A stable or unstable spot may be missed only where a
-        grid of that many steps does not show it. Points found are correct to about 1e-9 of such a step.
+        for three; the next lower power of two is taken. Nothing is missed that a grid of that many
+        steps shows. Points found are correct to about 1e-9 of such a step.
     **ranges
         Two or three parameters, each with its range [SI]: two numbers, or text such as ``"20:130 km/h"`` or
         ``"1e3:1e6:log"`` (see `parse_range`).
@@ -63,7 +72,7 @@ def boundary(
     ------
     UcritError
         If there is no such parameter, a range is empty or not allowed, there are not two or three ranges, the
-        tolerance is too small, or stability is undecided over a whole region.
+        tolerance is too small, or the boundary runs through more than four million cells.
 
     Examples
     --------
@@ -74,7 +83,7 @@ def boundary(
     """
     lattice = _lattice(vehicle, ranges, tolerance)
     search = _Search(vehicle, lattice)
-    cells, complete = search.cells()
+    cells = search.cells()
     size = len(lattice.names)
     parts = (cells[:, None, None] + simplices(size)).reshape(-1, size + 1, size)
     keys = lattice.keys(parts)
@@ -86,6 +95,7 @@ def boundary(
     else:
         line = np.zeros(len(places), dtype=np.int64)
     points = np.stack(list(lattice.columns(places).values()), axis=1)
+    sides = search.sides() if size == 2 else None
     return StabilityBoundary(
         vehicle,
         lattice.names,
@@ -98,7 +108,7 @@ def boundary(
         line,
         pieces,
         search.evaluations,
-        complete,
+        sides,
     )
 
 
@@ -108,7 +118,7 @@ def _lattice(vehicle: Model, ranges: dict[str, Any], tolerance: float | None) ->
         raise UcritError(f"a boundary is that of one vehicle: give one value each for {', '.join(vehicle.dims)}")
     if len(ranges) not in FINEST:
         raise UcritError(f"{where}: a boundary is found over two or three parameters, got {len(ranges)}")
-    tolerance = USUAL[len(ranges)] if tolerance is None else float(tolerance)
+    tolerance = USUAL[len(ranges)] if tolerance is None else to_si(tolerance, "1", f"{where}: the tolerance")
     finest = FINEST[len(ranges)]
     if not 1 / finest <= tolerance < 1:
         raise UcritError(
@@ -148,8 +158,10 @@ def _ends(vehicle: Model, name: str, given: Any) -> tuple[float, float, bool]:
     else:
         if np.ndim(given) != 1 or np.size(given) != 2:
             raise UcritError(f"{thing}: a boundary needs both ends of its range, got {given!r}")
-        lo, hi = float(given[0]), float(given[1])
-    if not (np.isfinite([lo, hi]).all() and lo < hi):
+        lo, hi = (to_si(end, parameter.unit if parameter else "1", thing) for end in np.asarray(given, dtype=object))
+    if not np.isfinite([lo, hi]).all():
+        raise UcritError(f"{thing} must be finite, got the range from {lo:g} to {hi:g}")
+    if not lo < hi:
         raise UcritError(f"{thing}: the range from {lo:g} to {hi:g} is empty; the first end must be below the second")
     return lo, hi, log
 
@@ -165,14 +177,24 @@ class _Search:
         self.keys = np.zeros(0, dtype=np.int64)
         self.verdicts = np.zeros(0, dtype=bool)
 
-    def cells(self) -> tuple[Places, bool]:
-        """Return the smallest cells in which a boundary may run, and whether the others were excluded for sure."""
-        found = subdivided(self.lattice, self.open_by_enclosure, False) if self._enclosable() else None
-        if found is not None:
-            return found, True
-        found = subdivided(self.lattice, self.open_by_corners, True)
-        assert found is not None
-        return found, False
+    def cells(self) -> Places:
+        """Return the smallest cells in which a boundary may run."""
+        points = (self.lattice.count + 1.0) ** len(self.lattice.names)
+        pays = points > SMALL_GRID and self._enclosable()
+        found = subdivided(self.lattice, self.open_by_enclosure) if pays else None
+        return differing(self.lattice, self.judged) if found is None else found
+
+    def judged(self, axes: Mapping[str, Array]) -> npt.NDArray[np.bool_]:
+        """Tell of a grid where the vehicle is stable."""
+        found = decide(self.vehicle, axes, "auto")
+        self.evaluations += found.size
+        return found
+
+    def sides(self) -> StabilityMap:
+        """Return a coarse map of the whole plane."""
+        step = max(1, self.lattice.count // SIDES)
+        axes = {name: x[::step] for name, x in self.lattice.axes().items()}
+        return StabilityMap(self.vehicle.with_(**axes), axes, self.judged(axes))
 
     def _enclosable(self) -> bool:
         """Whether the model's functions have enclosures."""
@@ -194,13 +216,7 @@ class _Search:
         run = build(self.functions.source, "coefficients", functions=EnclosureFunctions)
         with np.errstate(all="ignore"):
             a = deciding(self.functions, run(list(values.values())))
-            return ~_excluded(a, len(cells))
-
-    def open_by_corners(self, cells: Places, width: int) -> npt.NDArray[np.bool_]:
-        """Tell at the corners of which cells stability differs."""
-        keys = self.lattice.keys(cells[:, None] + width * corners(len(self.lattice.names)))
-        stable = self.stable(keys)
-        return np.asarray(stable.any(axis=1) & ~stable.all(axis=1))
+            return ~excluded(a, len(cells))
 
     def stable(self, keys: Places) -> npt.NDArray[np.bool_]:
         """Tell of places whether the vehicle is stable there."""
@@ -216,7 +232,7 @@ class _Search:
     def margins(self, places: Array) -> tuple[Array, Array]:
         """Return the conditions for stability, shape (conditions, points), and the coefficients' signs."""
         self.evaluations += len(places)
-        _, _, a = certain(self.vehicle, self.lattice.columns(places))
+        a = judged_points(self.vehicle, self.lattice.columns(places)).coefficients
         with np.errstate(all="ignore"):
             sign = np.where(a[-1] < 0, -1.0, 1.0)
             return np.stack([np.broadcast_to(c, sign.shape) for c in conditions(list(sign * a))]), np.sign(a)
@@ -263,29 +279,3 @@ class _Search:
             low[active[tiny]] = high[active[tiny]] = middle[tiny]
             active = active[~tiny]
         return (low + high) / 2
-
-
-def _excluded(a: Sequence[Any], count: int) -> npt.NDArray[np.bool_]:
-    """Tell in which boxes all points are stable, or none is, from enclosures of the coefficients."""
-    if len(a) == 1:
-        return np.ones(count, dtype=bool)
-    lower, upper = _range(a[-1], count)
-    sign = np.where(upper < 0, -1.0, 1.0)
-    fixed = (lower > 0) | (upper < 0)
-    a = [c * sign for c in a]
-    stable, unstable = np.array(fixed), np.zeros(count, dtype=bool)
-    before = np.array(fixed)
-    for c in conditions(a):
-        lower, upper = _range(c, count)
-        # up to degree 4 each condition is needed by itself; in Routh's column only as long as those before hold
-        unstable |= (upper <= 0) & fixed & (before if len(a) > 5 else True)
-        before &= lower > 0
-        stable &= lower > 0
-    for c in a:
-        unstable |= (_range(c, count)[1] <= 0) & fixed
-    return np.asarray(stable | unstable)
-
-
-def _range(c: Any, count: int) -> tuple[Array, Array]:
-    ends = (c.lower, c.upper) if isinstance(c, Enclosure) else (c, c)
-    return np.broadcast_to(ends[0], (count,)), np.broadcast_to(ends[1], (count,))

@@ -10,6 +10,7 @@ import numpy.typing as npt
 
 from ..core.model import Model
 from .convert import Series, Table, Tabular, unit_of
+from .stability_map import StabilityMap
 
 Array = npt.NDArray[Any]
 
@@ -40,9 +41,8 @@ class StabilityBoundary(Tabular):
         Shape (m, d): lines or triangles between points, by their indices.
     evaluations
         How many cells and points were evaluated.
-    complete
-        Whether cells without a boundary were excluded for sure, so that nothing larger than the tolerance is missing;
-        else the boundary was followed from 64 cells a range.
+    sides
+        Map of at most 129 x 129 points that tells which sides are stable, for two parameters.
     """
 
     vehicle: Model
@@ -56,7 +56,7 @@ class StabilityBoundary(Tabular):
     line: Array
     pieces: Array
     evaluations: int
-    complete: bool
+    sides: StabilityMap | None = None
 
     @property
     def lines(self) -> tuple[Array, ...]:

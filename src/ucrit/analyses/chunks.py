@@ -151,7 +151,7 @@ def job(vehicle: Model, kind: str, chunk: int | None, ranges: Mapping[str, Any])
     if math.prod(found.grid) > MAX_CHUNKS:
         raise UcritError(
             f"{math.prod(found.shape):,} points in chunks of at most {most:,} are {math.prod(found.grid):,} chunks; "
-            f"at most {MAX_CHUNKS:,} are allowed: take larger chunks"
+            f"at most {MAX_CHUNKS:,} are allowed: take fewer points, or larger chunks"
         )
     return found
 

@@ -88,7 +88,14 @@ class Citations:
             "schema": 1,
             "sources": [{"of": c.of, "source": c.source, "works": list(c.works)} for c in self.citations],
             "works": [
-                {"key": w.key, "type": w.kind, "author": list(w.author), "title": w.title, **w.fields}
+                {
+                    "key": w.key,
+                    "type": w.kind,
+                    "author": list(w.author),
+                    "title": w.title,
+                    **w.fields,
+                    "checked": w.checked,
+                }
                 for w in self.works
             ],
         }

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 import sympy as sp
 from sympy.polys.rings import PolyElement
 
 from ..core import typeset as to
+from ..core.characteristic import CharacteristicPolynomial
 from ..core.codegen import generate
 from ..core.errors import UcritError
 from ..core.factor import definite_sign, factors, readable, readable_ratio
-from ..core.linear import CharacteristicPolynomial
 from ..numerics.determinants import hurwitz_matrix
 from .implied import excluded, implied
 
@@ -35,7 +35,7 @@ def conditions(polynomial: CharacteristicPolynomial, parameters: Sequence[Any], 
     Parameters
     ----------
     polynomial
-        Its structural zeros are divided out first.
+        Its structural zeros are divided out first; it is stable where each of its factors is.
     parameters
         Symbols of all parameters that may occur, in declared order.
     where
@@ -47,13 +47,10 @@ def conditions(polynomial: CharacteristicPolynomial, parameters: Sequence[Any], 
         ``conditions``, ``conflict``, ``kind``, ``settled``, ``zeros`` and ``order``, as
         `ucrit.analyses.criteria.Criteria` has them.
     """
-    a = list(polynomial.coefficients[polynomial.zeros :])
-    even = len(a) > 1 and not any(a[1::2])
-    if even:  # all roots on the axis and simple if and only if p + p' is stable
-        a = [c + (k + 1) * a[k + 1] if k + 1 < len(a) else c for k, c in enumerate(a)]
+    parts, even = _parts(polynomial)
     found: list[tuple[dict[str, Any], PolyElement]] = []
     settled = True
-    for name, failure, poly in _lienard_chipart(a, where):
+    for name, failure, poly in _of_all(parts, where):
         condition = _condition(name, failure, poly, parameters, polynomial.functions)
         if condition is False:
             found, settled = [], False
@@ -71,11 +68,27 @@ def conditions(polynomial: CharacteristicPolynomial, parameters: Sequence[Any], 
     return {
         "conditions": [condition for condition, _ in found],
         "conflict": against if conflict else [],
-        "kind": "neutral" if even or len(a) == 1 else "asymptotic",
+        "kind": "neutral" if even or not parts else "asymptotic",
         "settled": None if found else settled,
         "zeros": polynomial.zeros,
-        "order": len(a) - 1,
+        "order": polynomial.order - polynomial.zeros,
     }
+
+
+def _parts(polynomial: CharacteristicPolynomial) -> tuple[list[list[PolyElement]], bool]:
+    """Return factors without zero roots, and whether the polynomial is even."""
+    parts = [list(factor) for factor in polynomial.factors]
+    if len(parts) != 1 or any(parts[0][1::2]):
+        return parts, False
+    a = parts[0]  # all roots on the axis and simple if and only if p + p' is stable
+    return [[c + (k + 1) * a[k + 1] if k + 1 < len(a) else c for k, c in enumerate(a)]], True
+
+
+def _of_all(parts: Sequence[list[PolyElement]], where: str) -> Iterator[tuple[str, str, PolyElement]]:
+    """Return the conditions of all factors; which factor it is stands behind the name, where there are several."""
+    for i, part in enumerate(parts, 1):
+        for name, failure, poly in _lienard_chipart(part, where):
+            yield (name if len(parts) == 1 else f"{name}, factor {i}"), failure, poly
 
 
 def _square_of_others(poly: PolyElement, others: Sequence[PolyElement]) -> bool:

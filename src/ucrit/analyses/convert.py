@@ -22,6 +22,7 @@ import numpy.typing as npt
 from ..core.compiled import labels, state_space
 from ..core.errors import MissingExtraError, UcritError
 from ..core.model import Model
+from .matlab import matlab_names
 
 Array = npt.NDArray[Any]
 PathLike = str | os.PathLike[str]
@@ -42,13 +43,28 @@ class Series:
 
 @dataclass(frozen=True)
 class Table:
-    """A result as named arrays; ``rows`` are the dimensions that become rows of a flat table."""
+    """A result as named arrays; ``rows`` are the dimensions that become rows of a flat table.
+
+    ``beside`` are arrays with a dimension of their own, which a flat table leaves out.
+    """
 
     title: str
     vehicle: Model
     coords: tuple[Series, ...]
     data: tuple[Series, ...]
     rows: tuple[str, ...]
+    beside: tuple[Series, ...] = ()
+
+    def about(self) -> dict[str, str]:
+        """Return what it is: title, model, name of the vehicle."""
+        return {"title": self.title, "model": type(self.vehicle).model_id(), "vehicle": self.vehicle.info.name}
+
+    def parameters(self) -> dict[str, dict[str, Any]]:
+        """Return unit and value of each parameter of the vehicle as plain data."""
+        return {
+            name: {"unit": unit_of(self.vehicle, name), "value": _plain(np.asarray(value))}
+            for name, value in self.vehicle.values.items()
+        }
 
     def columns(self) -> Iterator[tuple[str, str, Array]]:
         """Yield name, unit and values of each column of the flat table; dimensions not in rows spread out."""
@@ -102,11 +118,14 @@ class Tabular:
         pandas = needed("pandas", "data", "a data frame")
         columns = list(self.table().columns())
         frame = pandas.DataFrame({name: values for name, _, values in columns})
+        frame.attrs |= self.table().about()
         frame.attrs["units"] = {name: unit for name, unit, _ in columns if unit}
         return frame
 
     def to_xarray(self) -> Any:
         """Return an `xarray.Dataset` with named dimensions; units are attributes of its variables.
+
+        The attribute ``parameters`` holds the vehicle's parameters as JSON, in the layout of `to_json`.
 
         Raises `MissingExtraError` where xarray is not installed.
         """
@@ -116,12 +135,8 @@ class Tabular:
         def variables(group: Sequence[Series]) -> dict[str, Any]:
             return {s.name: (s.dims, s.values, {"units": s.unit} if s.unit else {}) for s in group}
 
-        attrs = {
-            "title": table.title,
-            "model": type(table.vehicle).model_id(),
-            "vehicle": table.vehicle.info.name,
-        }
-        return xarray.Dataset(variables(table.data), variables(table.coords), attrs)
+        attrs = {**table.about(), "parameters": json.dumps(table.parameters())}
+        return xarray.Dataset(variables((*table.data, *table.beside)), variables(table.coords), attrs)
 
     def to_csv(self, path: PathLike) -> None:
         """Write a flat table, each column headed ``name [unit]``; the file appears whole or not at all."""
@@ -151,12 +166,9 @@ class Tabular:
             "result": table.title,
             "model": type(vehicle).model_id(),
             "vehicle": vehicle.info.name,
-            "parameters": {
-                name: {"unit": unit_of(vehicle, name), "value": _plain(np.asarray(value))}
-                for name, value in vehicle.values.items()
-            },
+            "parameters": table.parameters(),
             "coordinates": {s.name: _entry(s) for s in table.coords},
-            "variables": {s.name: _entry(s) for s in table.data},
+            "variables": {s.name: _entry(s) for s in (*table.data, *table.beside)},
         }
         text = json.dumps(content, allow_nan=False)
         if path is not None:
@@ -164,16 +176,23 @@ class Tabular:
         return text
 
     def to_mat(self, path: PathLike) -> None:
-        """Write a MATLAB file (version 5): one variable for each array, and a struct ``units``."""
+        """Write a MATLAB file (version 5): one variable for each array, structs ``units``, ``names``, ``parameters``.
+
+        MATLAB's names are letters, digits and underscores: ``theta'`` becomes ``theta_dot``, any other character an
+        underscore. The struct ``names`` has the names as they are elsewhere.
+        """
         import io
 
         from scipy.io import savemat
 
         table = self.table()
-        series = (*table.coords, *table.data)
-        arrays: dict[str, Any] = {s.name: s.values for s in series}
-        arrays |= {s.name: s.values.astype(object) for s in series if s.values.dtype.kind == "U"}
-        arrays["units"] = {s.name: s.unit for s in series if s.unit}
+        series = (*table.coords, *table.data, *table.beside)
+        called = matlab_names([s.name for s in series])
+        cells = {s.name: s.values.astype(object) if s.values.dtype.kind == "U" else s.values for s in series}
+        arrays: dict[str, Any] = {called[name]: values for name, values in cells.items()}
+        arrays["units"] = {called[s.name]: s.unit for s in series if s.unit}
+        arrays["names"] = {new: name for name, new in called.items()}
+        arrays["parameters"] = dict(table.vehicle.values)
         buffer = io.BytesIO()
         savemat(buffer, arrays, long_field_names=True, oned_as="column")
         write_whole(path, buffer.getvalue())

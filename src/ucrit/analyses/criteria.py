@@ -19,7 +19,7 @@ from ..core.errors import UcritError, near_match
 from ..core.model import Model
 
 if TYPE_CHECKING:
-    from ..core.linear import CharacteristicPolynomial
+    from ..core.characteristic import CharacteristicPolynomial, Part
 
 
 @dataclass(frozen=True)
@@ -220,7 +220,7 @@ def _derive(cls: type[Model], direction: int, values: Mapping[str, Any], kept: M
         full, symbols = system.polynomial, system.traced.parameters
         system = system.substituted({symbols[name]: _rational(v) for name, v in values.items()})
         if system.polynomial.zeros > full.zeros:  # a_0 vanishes for these numbers: a root stays at zero
-            order = len(system.polynomial.coefficients) - 1 - full.zeros
+            order = full.order - full.zeros
             return {"conditions": [], "kind": "asymptotic", "settled": False, "zeros": full.zeros, "order": order}
         polynomial = _with_sign_of(system.polynomial, {symbols[name]: _rational(v) for name, v in kept.items()})
     else:
@@ -245,7 +245,11 @@ def _rational(value: Any) -> Any:
 
 
 def _with_sign_of(polynomial: CharacteristicPolynomial, point: Mapping[Any, Any]) -> CharacteristicPolynomial:
-    """Return a polynomial, or its negative, such that its first coefficient is positive for the vehicle."""
-    if polynomial.expressions[-1].subs(point) >= 0:
-        return polynomial
-    return replace(polynomial, coefficients=tuple(-a for a in polynomial.coefficients))
+    """Return a polynomial whose factors' first coefficients are positive for the vehicle."""
+    functions = dict(polynomial.functions)
+
+    def signed(part: Part) -> Part:
+        first = part[-1].as_expr().xreplace(functions).subs(point)
+        return part if first >= 0 else tuple(-a for a in part)
+
+    return replace(polynomial, parts=tuple(map(signed, polynomial.parts)))

@@ -48,9 +48,15 @@ class Watch:
         self.fresh = False
 
     def begin(self, w: Array, u: Array) -> None:
-        """Take the signs at the start; what is exactly zero there has not happened."""
+        """Take the signs at the start; what is exactly zero there has not happened.
+
+        An event that also counts from the start is taken to come from the other side.
+        """
         if self.names:
             self.signs = np.sign(self._values(w, u))
+            for which in np.flatnonzero(self.made.event_starts):
+                signs, way = self.signs[which], self.made.event_ways[which]
+                self.signs[which] = np.where((signs == way) | (way == 0), -signs, signs)
 
     def _values(self, w: Array, u: Array) -> Array:
         with np.errstate(all="ignore"):

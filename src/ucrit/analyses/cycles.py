@@ -52,8 +52,17 @@ class LimitCycles(Tabular):
     branches: tuple[CycleBranch, ...]
 
     def at(self, value: float | str) -> tuple[Cycle, ...]:
-        """Return the cycles of all branches at a value of the parameter [SI, or text with a unit]."""
-        return tuple(cycle for branch in self.branches for cycle in branch.at(value))
+        """Return the cycles of all branches at a value of the parameter [SI, or text with a unit].
+
+        Raises `UcritError` for a value outside the range in which cycles were followed.
+        """
+        wanted = to_si(value, self.unit, self.parameter)
+        if not self.lower <= wanted <= self.upper:
+            raise UcritError(
+                f"{type(self.vehicle).model_id()}: {self.parameter} must be within {self.lower:.6g} and "
+                f"{self.upper:.6g} {self.unit}, where limit cycles were followed, got {wanted:.6g}"
+            )
+        return tuple(cycle for branch in self.branches for cycle in branch.at(wanted))
 
     @property
     def sentences(self) -> tuple[str, ...]:
@@ -71,7 +80,7 @@ class LimitCycles(Tabular):
 
 
 def field_of(vehicle: Model, parameter: str) -> Field:
-    """Return the vehicle's motion and its slopes as functions of states (n, P) and a value of the parameter."""
+    """Return motion, slopes and switches of a vehicle as functions of states (n, P) and a value of the parameter."""
     made, arguments = motion(type(vehicle)), list(vehicle.arguments())
     place = list(type(vehicle).declaration.parameters).index(parameter)
 
@@ -98,7 +107,11 @@ def field_of(vehicle: Model, parameter: str) -> Field:
                 return np.full((count, n, n), np.nan), np.full((count, n), np.nan)
         return found.A, found.E[..., place]
 
-    return Field(rates, slopes)
+    def switches(x: Array, value: float) -> Array:
+        given, u = changed(value)
+        return made.switches(x, np.broadcast_to(u[:, None], (len(u), x.shape[1])), given)
+
+    return Field(rates, slopes, switches)
 
 
 def limit_cycles(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import zip_longest
 from typing import Any
@@ -18,10 +18,10 @@ from ..numerics.routh import routh
 Polynomial = list[Fraction]
 
 
-def coefficient_polynomials(vehicle: Model, name: str) -> list[Polynomial] | None:
-    """Return the characteristic coefficients as exact polynomials in one parameter, without structural zeros.
+def factor_polynomials(vehicle: Model, name: str) -> list[list[Polynomial]] | None:
+    """Return the characteristic polynomial's factors, their coefficients as exact polynomials in one parameter.
 
-    ``None`` where they are no polynomials in it.
+    ``None`` where they are no polynomials in it. Roots that are zero whatever the parameters are left out.
     """
     functions = compiled(type(vehicle), direction(vehicle))
     degrees = functions.degrees(name)
@@ -29,9 +29,11 @@ def coefficient_polynomials(vehicle: Model, name: str) -> list[Polynomial] | Non
         return None
     arguments = {key: Fraction(float(value)) for key, value in vehicle.values.items()}
     nodes = [Fraction(k) for k in range(max(degrees) + 1)]
-    rows = [functions.exact_coefficients([*{**arguments, name: node}.values()]) for node in nodes]
-    columns = list(zip(*rows, strict=True))[functions.structural_zeros :]
-    return [interpolate(nodes, [Fraction(v) for v in column]) for column in columns]
+    rows = [functions.exact_factors([*{**arguments, name: node}.values()]) for node in nodes]
+    return [
+        [interpolate(nodes, [Fraction(v) for v in column]) for column in zip(*factor, strict=True)]
+        for factor in zip(*rows, strict=True)
+    ]
 
 
 def exact_search(vehicle: Model, name: str, lo: float, hi: float) -> Any:
@@ -39,24 +41,29 @@ def exact_search(vehicle: Model, name: str, lo: float, hi: float) -> Any:
 
     ``None`` where the model is no polynomial in the parameter, or a boundary polynomial vanishes identically.
     """
-    a = coefficient_polynomials(vehicle, name)
-    if a is None:
+    factors = factor_polynomials(vehicle, name)
+    if factors is None:
         return None
-    if len(a) > 2 and not any(any(p) for p in a[1::2]):
-        a = _undamped(a)
-    boundaries = {"divergence": a[0], "order": a[-1]}
-    if len(a) > 2:
-        boundaries["flutter"] = hurwitz_polynomial(a)
-    if not all(any(p) for p in boundaries.values()):
-        return None
+    if len(factors) == 1 and len(factors[0]) > 2 and not any(any(p) for p in factors[0][1::2]):
+        factors = [_undamped(factors[0])]
     edges: dict[float, set[str]] = {}
-    for kind, p in boundaries.items():
+    for kind, p in [pair for a in factors for pair in _boundaries(a)]:
+        if not any(p):
+            return None
         for value, _ in real_roots(p, lo, hi) if len(p) > 1 else ():
             if lo < value < hi:
                 edges.setdefault(value, set()).add(kind)
     values = sorted(edges)
     samples = [_between(x, y) for x, y in zip([lo, *values], [*values, hi], strict=True)]
-    return [(v, edges[v]) for v in values], [_is_stable(a, sample) for sample in samples]
+    return [(v, edges[v]) for v in values], [all(_is_stable(a, at) for a in factors) for at in samples]
+
+
+def _boundaries(a: list[Polynomial]) -> Iterator[tuple[str, Polynomial]]:
+    """Return what vanishes where stability of one factor changes, with its kind."""
+    yield "divergence", a[0]
+    yield "order", a[-1]
+    if len(a) > 2:
+        yield "flutter", hurwitz_polynomial(a)
 
 
 def _undamped(a: list[Polynomial]) -> list[Polynomial]:

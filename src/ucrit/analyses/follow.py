@@ -26,7 +26,7 @@ IMPLICIT_TOLERANCE = 1e-9
 FINEST = 2.3e-14
 """Relative error below which a step cannot be judged in double precision."""
 
-LOOK, MANY, LIMIT = 50, 5000, 3.0
+LOOK, MANY, LIMIT = 50, 1000, 1.0
 """After so many steps, if so many more are ahead, an explicit method is left when rate times step exceeds a limit."""
 
 

@@ -41,7 +41,7 @@ class LinearForm(Rich):
     @cached_property
     def coefficients(self) -> tuple[Any, ...]:
         """Ascending coefficients of the characteristic polynomial; in numbers the last of them is 1."""
-        from ..core.linear import characteristic_polynomial
+        from ..core.characteristic import characteristic_polynomial
 
         found = characteristic_polynomial(self.matrices, "linear equations").expressions
         return tuple(a / found[-1] for a in found) if all(a.is_number for a in found) else found

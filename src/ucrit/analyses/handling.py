@@ -197,10 +197,9 @@ def _refuse_unfit(vehicle: Model, steer: str) -> None:
     ]
     missing = [text for lacks, text in needed if lacks]
     if missing:
-        raise UcritError(
-            f"{type(vehicle).model_id()}: a handling diagram needs {' and '.join(missing)}, "
-            "which the model does not have"
-        )
+        *some, last = missing
+        needs = f"{', '.join(some)} and {last}" if some else last
+        raise UcritError(f"{type(vehicle).model_id()}: a handling diagram needs {needs}, which the model does not have")
 
 
 def _diagram(vehicle: Model, steer: str, family: SteadyFamily, speed: float) -> Handling:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import textwrap
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from .steady import GRAVITY
+from .steady_problem import CANNOT
 
 if TYPE_CHECKING:
     from .handling import Handling
@@ -16,6 +18,8 @@ LIMITS = {
     "spin": "spins: the rear axle saturates first",
     "drift": "slides on both axles at once",
 }
+
+NOT_YET = "no axle saturates within the slip angles looked at"
 
 
 def acceleration(a_y: float) -> str:
@@ -34,7 +38,10 @@ def sentences(found: Handling) -> list[str]:
     head = f"{vehicle.info.name or type(vehicle).model_id()}: steady turns at {speed:.4g} m/s"
     limit = LIMITS.get(found.limit)
     largest = f"    largest lateral acceleration {acceleration(found.largest)}"
-    lines = [head, f"    {limit}" if limit else "    no axle saturates within the slip angles looked at", largest]
+    if not limit:
+        lost = found.family.end.startswith(CANNOT)
+        limit = "the limit is not known: the turns could not be followed to it" if lost else NOT_YET
+    lines = [head, f"    {limit}", largest]
     K = found.gradient[0]
     lines.append(f"    understeer gradient at first {K:.4g} rad/(m/s^2) = {found.gradient_deg_per_g[0]:.4g} deg/g")
     for part in found.ranges:
@@ -46,4 +53,9 @@ def sentences(found: Handling) -> list[str]:
         lines.append(
             f"    with the steering held, unstable from {acceleration(found.unstable_from)} on: {change.kind}{at}"
         )
-    return [*lines, f"    ends: {found.family.end}"]
+    return [*lines, *wrapped(f"ends: {found.family.end}")]
+
+
+def wrapped(text: str) -> list[str]:
+    """Return a sentence as lines of a report, indented and at most eighty columns wide."""
+    return textwrap.wrap(text, 80, initial_indent="    ", subsequent_indent="      ")

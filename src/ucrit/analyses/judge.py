@@ -5,10 +5,8 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise, product
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -18,8 +16,10 @@ from ..core.bounds import coefficient_bounds
 from ..core.compiled import Compiled, compiled, deciding, direction, state_space
 from ..core.errors import UcritError
 from ..core.model import Model
+from ..numerics.matrices import eigenvalues_with_errors
 from ..numerics.rounded import judged, slacks
 from ..numerics.routh import routh
+from .grids import Grid, Tile, flat, tiles
 from .modes import growth
 
 Array = npt.NDArray[Any]
@@ -27,11 +27,14 @@ Array = npt.NDArray[Any]
 BLOCK = 2**16
 """Points that NumPy handles together: a dozen temporaries of them stay in the second-level cache."""
 
-TILE = 2**20
+TILE = 2**22
 """Points that a compiled kernel handles together."""
 
-SPAN = 16.0
-"""Largest ratio of a parameter's values within a tile: one bound of the rounding errors serves it all."""
+DEVICE_TILE = 2**26
+"""Points that a graphics processor handles together."""
+
+THREADS = 128
+"""Threads of a block on a graphics processor."""
 
 ONE_THREAD = 10**7
 """Points below which threads do not pay."""
@@ -40,41 +43,10 @@ COMPILED_PAYS = 3 * 10**7
 """Points above which a kernel is compiled unless it already is."""
 
 CLEAR = 1e-7
-"""Real part, as a share of the largest eigenvalue, from which on an eigenvalue decides."""
+"""Real part, as a share of the largest eigenvalue, below which no eigenvalue decides."""
 
 EXACT_POINTS = 2000
 """Points of one grid that are settled in exact arithmetic; further ones by the sign of the largest real part."""
-
-Tile = tuple[slice, ...]
-
-
-@dataclass(frozen=True)
-class Grid:
-    """Values of some parameters of a vehicle, each axis in rising order."""
-
-    vehicle: Model
-    axes: Mapping[str, Array]
-
-    @property
-    def shape(self) -> tuple[int, ...]:
-        """Number of values of each axis."""
-        return tuple(x.size for x in self.axes.values())
-
-    def functions(self, tile: Tile) -> Compiled:
-        """Compiled functions for a tile, in which the speed has one sign."""
-        model = type(self.vehicle)
-        name = model.declaration.speed
-        if name is None or name not in self.axes:
-            return compiled(model, direction(self.vehicle))
-        first = self.axes[name][tile[list(self.axes).index(name)]][0]
-        return compiled(model, 1 if first > 0 else -1)
-
-    def arguments(self, tile: Tile) -> list[Any]:
-        """Parameter values of a tile in declared order, shaped to broadcast."""
-        values: dict[str, Any] = dict(self.vehicle.values)
-        for i, (name, x) in enumerate(self.axes.items()):
-            values[name] = x[tile[i]].reshape([-1 if k == i else 1 for k in range(len(tile))])
-        return list(values.values())
 
 
 def decide(vehicle: Model, axes: Mapping[str, Array], engine: str) -> Array:
@@ -103,6 +75,7 @@ def _chosen(grid: Grid, engine: str) -> str:
         return "numpy"
     try:
         kernels.needed("numba")
+        kernels.body(grid.functions(next(tiles_of(grid, "numba"))), 0)
     except UcritError:
         return "numpy"
     return "numba"
@@ -115,7 +88,7 @@ def _everywhere(grid: Grid, engine: str, codes: Array) -> Array:
         "numba": lambda tile: _by_numba(grid, tile, codes),
         "cuda": lambda tile: _by_cuda(grid, tile, codes),
     }[engine]
-    tiles = _tiles(grid, BLOCK if engine == "numpy" else TILE)
+    tiles = tiles_of(grid, engine)
     if codes.size < ONE_THREAD or engine == "cuda":
         found = [work(tile) for tile in tiles]
     else:
@@ -124,33 +97,9 @@ def _everywhere(grid: Grid, engine: str, codes: Array) -> Array:
     return np.concatenate([np.zeros(0, dtype=np.int64), *found])
 
 
-def _tiles(grid: Grid, most: int) -> Iterator[Tile]:
-    """Split a grid where a parameter changes its sign or by more than `SPAN`, and further to at most so many points."""
-    for tile in product(*(_segments(x) for x in grid.axes.values())):
-        sizes = [s.stop - s.start for s in tile]
-        steps, room = [], most
-        for size in reversed(sizes):
-            steps.append(max(1, min(size, room)))
-            room //= steps[-1]
-        pieces = [
-            [slice(at, min(at + step, s.stop)) for at in range(s.start, s.stop, step)]
-            for s, step in zip(tile, reversed(steps), strict=True)
-        ]
-        yield from product(*pieces)
-
-
-def _segments(x: Array) -> list[slice]:
-    """Runs of rising values of one sign in which the size changes by at most a factor `SPAN`."""
-    size = np.where(x == 0, 1.0, np.abs(x))
-    label = np.sign(x) * (5000 + np.floor(np.log(size) / np.log(SPAN)))
-    edges = [0, *(np.flatnonzero(np.diff(label)) + 1), x.size]
-    return [slice(int(a), int(b)) for a, b in pairwise(edges)]
-
-
-def _flat(grid: Grid, tile: Tile, inside: Array) -> Array:
-    """Flat indices, in the whole grid, of the true entries of a tile."""
-    place = [i + s.start for i, s in zip(np.nonzero(inside), tile, strict=True)]
-    return np.asarray(np.ravel_multi_index(tuple(place), grid.shape), dtype=np.int64)
+def tiles_of(grid: Grid, engine: str) -> Iterator[Tile]:
+    """Split a grid into the tiles of an engine."""
+    return tiles(grid, {"numpy": BLOCK, "numba": TILE, "cuda": DEVICE_TILE}[engine])
 
 
 def _by_numpy(grid: Grid, tile: Tile, codes: Array) -> Array:
@@ -162,13 +111,17 @@ def _by_numpy(grid: Grid, tile: Tile, codes: Array) -> Array:
         return np.zeros(0, dtype=np.int64)
     sure, open_ = judged(a, *coefficient_bounds(functions, arguments, whole=True))
     codes[tile] = sure
-    return _flat(grid, tile, open_) if open_.any() else np.zeros(0, dtype=np.int64)
+    return flat(grid, tile, open_) if open_.any() else np.zeros(0, dtype=np.int64)
 
 
 def _limits(functions: Compiled, arguments: Sequence[Any]) -> Array:
-    """What the kernels compare with, for a whole tile."""
+    """What the kernels compare with, for a whole tile.
+
+    Errors count twice: ordering by powers of the inner parameter, and Horner's rule, round at most as often again.
+    """
     sizes, errors = coefficient_bounds(functions, arguments, whole=True)
     with np.errstate(all="ignore"):
+        errors = [2 * x for x in errors]
         return np.array([float(x) for x in (slacks(sizes, errors) if len(sizes) < 6 else errors)]) + 1e-300
 
 
@@ -192,26 +145,31 @@ def _by_numba(grid: Grid, tile: Tile, codes: Array) -> Array:
     outer, inner, rows, values, along = _split(grid, tile)
     kernel = kernels.processor_kernel(functions, tuple(outer), inner)
     fixed = np.array([np.ravel(x)[0] for x in arguments], dtype=float)
-    flat = codes.reshape(-1, grid.shape[-1])
-    count = kernel(fixed, _limits(functions, arguments), rows, values, tile[-1].start, along, flat)
-    return _flat(grid, tile, codes[tile] == kernels.OPEN) if count else np.zeros(0, dtype=np.int64)
+    whole = codes.reshape(-1, grid.shape[-1])
+    count = kernel(fixed, _limits(functions, arguments), rows, values, tile[-1].start, along, whole)
+    return flat(grid, tile, codes[tile] == kernels.OPEN) if count else np.zeros(0, dtype=np.int64)
 
 
 def _by_cuda(grid: Grid, tile: Tile, codes: Array) -> Array:
-    functions, arguments = grid.functions(tile), grid.arguments(tile)
-    if functions.order == functions.structural_zeros:
+    if (functions := grid.functions(tile)).order == functions.structural_zeros:
         codes[tile] = 1
         return np.zeros(0, dtype=np.int64)
+    codes[tile] = on_device(grid, tile).copy_to_host().reshape(codes[tile].shape)
+    return flat(grid, tile, codes[tile] == kernels.OPEN)
+
+
+def on_device(grid: Grid, tile: Tile) -> Any:
+    """Return the codes of a tile as an array of the graphics processor, shape (rows, points of a row)."""
+    cuda, functions, arguments = kernels.needed("cuda"), grid.functions(tile), grid.arguments(tile)
     outer, inner, _, values, along = _split(grid, tile)
-    cuda = kernels.needed("cuda")
     kernel = kernels.graphics_kernel(functions, tuple(outer), inner)
     fixed = np.array([np.ravel(x)[0] for x in arguments], dtype=float)
-    given = [cuda.to_device(x) for x in (fixed, _limits(functions, arguments), values, np.ascontiguousarray(along))]
-    out = cuda.device_array((len(values), along.size), dtype=np.uint8)
-    threads = (64, 4)
-    kernel[(-(-along.size // threads[0]), -(-len(values) // threads[1])), threads](*given, out)
-    codes[tile] = out.copy_to_host().reshape(codes[tile].shape)
-    return _flat(grid, tile, codes[tile] == kernels.OPEN)
+    rows, along = np.arange(len(values)), np.ascontiguousarray(along)
+    out = cuda.device_array((rows.size, along.size), dtype=np.uint8)
+    given = [cuda.to_device(x) for x in (fixed, _limits(functions, arguments), rows, values)]
+    blocks = min(rows.size, 2**14), min(-(-along.size // THREADS), 2**10)
+    kernel[blocks, THREADS](*given, 0, cuda.to_device(along), out)
+    return out
 
 
 def settle(vehicle: Model, columns: Mapping[str, Array]) -> Array:
@@ -233,8 +191,21 @@ def settle(vehicle: Model, columns: Mapping[str, Array]) -> Array:
     return stable
 
 
-def certain(vehicle: Model, columns: Mapping[str, Array]) -> tuple[Array, Array, Array]:
-    """Return where points are stable for sure, where that is open, and the coefficients (degree + 1, points)."""
+class Judged(NamedTuple):
+    """What is known of points: arrays of shape (points,), coefficients of shape (degree + 1, points).
+
+    ``sure`` means stable for sure, ``doubt`` neither that nor unstable for sure, ``signed`` that rounding left the
+    leading coefficient its sign.
+    """
+
+    sure: Array
+    doubt: Array
+    signed: Array
+    coefficients: Array
+
+
+def judged_points(vehicle: Model, columns: Mapping[str, Array]) -> Judged:
+    """Judge single points, one value of each column, by the polynomial."""
     many = vehicle.along("point", **columns)
     functions = compiled(type(many), direction(many))
     arguments = many.arguments()
@@ -242,46 +213,51 @@ def certain(vehicle: Model, columns: Mapping[str, Array]) -> tuple[Array, Array,
         found = deciding(functions, functions.coefficients(arguments))
     a = [np.broadcast_to(np.asarray(c, dtype=float), (len(next(iter(columns.values()))),)) for c in found]
     if len(a) == 1:
-        return np.ones(a[0].shape, dtype=bool), np.zeros(a[0].shape, dtype=bool), np.array(a)
+        every = np.ones(a[0].shape, dtype=bool)
+        return Judged(every, ~every, every, np.array(a))
     _, errors = coefficient_bounds(functions, arguments, whole=False)
     sure, open_ = judged(a, [np.abs(x) + e for x, e in zip(a, errors, strict=True)], errors)
-    return sure, open_, np.array(a)
+    return Judged(sure, open_, np.abs(a[-1]) > errors[-1], np.array(a))
 
 
 def _settled(vehicle: Model, columns: Mapping[str, Array], exact: int) -> tuple[Array, int]:
     """Verdicts of a block of points, and how many of them took exact arithmetic."""
-    sure, open_, _ = certain(vehicle, columns)
-    stable, rest = np.array(sure), np.flatnonzero(open_)
+    known = judged_points(vehicle, columns)
+    stable, rest = np.array(known.sure), np.flatnonzero(known.doubt)
     if not rest.size:
         return stable, 0
     columns = {name: x[rest] for name, x in columns.items()}
-    rates = _rates(vehicle.along("point", **columns))
+    rates, clear = _rates(vehicle.along("point", **columns))
+    clear &= known.signed[rest]  # else a root next to infinity has an eigenvalue of either sign
     stable[rest] = rates < 0
-    near = np.flatnonzero(~(np.abs(rates) > CLEAR))[:exact]
+    near = np.flatnonzero(~clear)
+    near = near[np.argsort(np.abs(rates[near]), kind="stable")][:exact]
     functions = compiled(type(vehicle), direction(vehicle.along("point", **columns)))
     for k in near:
         stable[rest[k]] = _exactly(functions, {**vehicle.values, **{name: x[k] for name, x in columns.items()}})
     return stable, near.size
 
 
-def _rates(many: Model) -> Array:
-    """Largest real part as a share of the largest modulus, nan where the equations are singular."""
+def _rates(many: Model) -> tuple[Array, Array]:
+    """Largest real part as a share of the largest modulus, nan if the equations are singular; and where it is clear."""
     rates = np.full(next(iter(many.dims.values())).size, np.nan)
+    clear = np.zeros(rates.size, dtype=bool)
     try:
         A = state_space(many).A
     except UcritError:
-        return rates
+        return rates, clear
     A = np.broadcast_to(A, (rates.size, *A.shape[-2:]))
     finite = np.isfinite(A).all(axis=(-2, -1))
     if not finite.any():
-        return rates
-    values = np.linalg.eigvals(A[finite]).astype(complex)
+        return rates, clear
+    values, errors = eigenvalues_with_errors(A[finite])
     size = np.abs(values).max(axis=-1)
-    rates[finite] = growth(many, values) / np.where(size == 0, 1, size)
-    functions = compiled(type(many), direction(many))
-    if functions.undamped:
-        rates[rates < CLEAR] = np.nan  # no motion can decay: only growth is clear
-    return rates
+    size[size == 0] = 1
+    rates[finite] = growth(many, values) / size
+    clear[finite] = np.abs(rates[finite]) > np.maximum(CLEAR, errors / size)
+    if compiled(type(many), direction(many)).undamped:
+        clear &= rates > 0  # no motion can decay: only growth is clear
+    return rates, clear
 
 
 def _exactly(functions: Compiled, values: Mapping[str, Any]) -> bool:

@@ -5,7 +5,7 @@ Places are whole numbers from 0 to ``count`` on each axis; `Lattice` says which 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import permutations, product
 
@@ -21,13 +21,16 @@ WIDE = 24
 """Open cells, for each of a cut across the box, above which excluding them does not pay."""
 
 MAX_CELLS = 2**22
-"""Cells held at once; only a boundary that fills an area has so many."""
+"""Cells held at once."""
 
 START = 8
-"""Cells of each axis to begin with where cells can be excluded for sure."""
+"""Cells of each axis to begin with."""
 
-START_SAMPLED = 64
-"""The same where stability is only sampled at corners."""
+LOW, HIGH = slice(None, -1), slice(1, None)
+"""The places of an axis with a neighbour above, and with one below."""
+
+SLAB = 2**24
+"""Points judged at once where a whole grid is."""
 
 
 @dataclass(frozen=True)
@@ -49,6 +52,11 @@ class Lattice:
             columns[name] = np.clip(value, lo, hi)
         return columns
 
+    def axes(self) -> dict[str, Array]:
+        """Return the parameter values at all places of each axis."""
+        every = self.columns(np.arange(self.count + 1)[:, None] * np.ones(len(self.names), dtype=np.int64))
+        return dict(every)
+
     def keys(self, places: Places) -> Places:
         """Return one number for each place of shape (..., d)."""
         return np.asarray(np.ravel_multi_index(tuple(np.moveaxis(places, -1, 0)), (self.count + 1,) * len(self.names)))
@@ -63,7 +71,7 @@ def corners(dimensions: int) -> Places:
     return np.array(list(product((0, 1), repeat=dimensions)), dtype=np.int64)
 
 
-def subdivided(lattice: Lattice, open_: Callable[[Places, int], npt.NDArray[np.bool_]], sampled: bool) -> Places | None:
+def subdivided(lattice: Lattice, open_: Callable[[Places, int], npt.NDArray[np.bool_]]) -> Places | None:
     """Return the smallest cells that are still open, by their lowest corners of shape (cells, d).
 
     Parameters
@@ -72,55 +80,55 @@ def subdivided(lattice: Lattice, open_: Callable[[Places, int], npt.NDArray[np.b
         The places; ``count`` is a power of two.
     open_
         Tells of cells, by lowest corner and width, in which of them a boundary may run.
-    sampled
-        Whether that is seen at corners only: then more cells to begin with, and neighbours are looked at too.
 
     Returns
     -------
     array or None
-        ``None`` where the cells are not sampled and too many of them stay open for that to be worth while.
-
-    Raises
-    ------
-    UcritError
-        If there are too many open cells.
+        ``None`` where so many of them stay open that this is not worth while.
     """
     dimensions = len(lattice.names)
-    start = min(START_SAMPLED if sampled else START, lattice.count)
-    width = lattice.count // start
-    cells = np.array(list(np.ndindex(*(start,) * dimensions)), dtype=np.int64) * width
+    width = lattice.count // min(START, lattice.count)
+    cells = np.array(list(np.ndindex(*(lattice.count // width,) * dimensions)), dtype=np.int64) * width
     while True:
         cells = cells[open_(cells, width)]
-        if sampled:
-            cells = _with_neighbours(cells, width, lattice, open_)
         if width == 1 or not len(cells):
             return cells
-        if not sampled and 0 < WIDE * (lattice.count // width) ** (dimensions - 1) < len(cells):
+        if WIDE * (lattice.count // width) ** (dimensions - 1) < len(cells) or len(cells) * 2**dimensions > MAX_CELLS:
             return None
-        if len(cells) * 2**dimensions > MAX_CELLS:
-            names = " and ".join(lattice.names)
-            raise UcritError(f"the boundary over {names} fills a region: on it stability is undecided everywhere")
         width //= 2
         cells = (cells[:, None] + width * corners(dimensions)).reshape(-1, dimensions)
 
 
-def _with_neighbours(
-    cells: Places, width: int, lattice: Lattice, open_: Callable[[Places, int], npt.NDArray[np.bool_]]
-) -> Places:
-    """Add open cells beside open ones until there are none: follow the boundary where it leaves the cells found."""
-    dimensions = len(lattice.names)
-    around = np.array(list(product((-1, 0, 1), repeat=dimensions))) * width
-    known = np.unique(lattice.keys(cells)) if len(cells) else np.zeros(0, dtype=np.int64)
-    seen, front = known, cells
-    while len(front):
-        beside = (front[:, None] + around).reshape(-1, dimensions)
-        beside = beside[((beside >= 0) & (beside < lattice.count)).all(axis=1)]
-        new = np.setdiff1d(lattice.keys(beside), seen)
-        seen = np.union1d(seen, new)
-        front = lattice.places(new)
-        front = front[open_(front, width)]
-        known = np.union1d(known, lattice.keys(front))
-    return lattice.places(known)
+def differing(lattice: Lattice, judged: Callable[[Mapping[str, Array]], npt.NDArray[np.bool_]]) -> Places:
+    """Return all the smallest cells whose corners differ, by their lowest corners: the whole grid is judged.
+
+    Parameters
+    ----------
+    lattice
+        The places.
+    judged
+        Tells of a grid, by the values of each axis, where it is stable.
+
+    Raises
+    ------
+    UcritError
+        If there are too many such cells.
+    """
+    axes, dimensions = lattice.axes(), len(lattice.names)
+    first, step = lattice.names[0], max(1, SLAB // (lattice.count + 1) ** (dimensions - 1))
+    found: list[Places] = []
+    for start in range(0, lattice.count, step):
+        some = every = judged({**axes, first: axes[first][start : start + step + 1]})
+        for axis in range(dimensions):
+            low, high = (tuple(s if k == axis else slice(None) for k in range(dimensions)) for s in (LOW, HIGH))
+            some, every = some[low] | some[high], every[low] & every[high]
+        found.append(np.argwhere(some & ~every) + np.eye(dimensions, dtype=np.int64)[0] * start)
+        if sum(map(len, found)) > MAX_CELLS:
+            raise UcritError(
+                f"the boundary over {' and '.join(lattice.names)} runs through more than {MAX_CELLS:,} cells: "
+                "it fills a region; take smaller ranges or a larger tolerance"
+            )
+    return np.concatenate(found)
 
 
 def simplices(dimensions: int) -> Places:

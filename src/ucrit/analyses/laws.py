@@ -9,11 +9,12 @@ from typing import Any
 from ..catalogue import find_controller
 from ..control import Controller
 from ..core.declare import Input, Output, Parameter, Variable
+from ..core.html import Rich
 from ..core.model import Model, as_tuple, call
 
 
 @dataclass(frozen=True)
-class ControllerDescription:
+class ControllerDescription(Rich):
     """What `describe_controller` finds.
 
     Attributes

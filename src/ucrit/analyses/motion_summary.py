@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -15,12 +16,20 @@ from .simulation import Simulation
 
 Array = npt.NDArray[Any]
 
-SAMPLES = 101
+SAMPLES, MOST_SAMPLES, PER_PERIOD = 101, 4001, 10
+"""Fewest and most samples of a fit, and how many an oscillation needs."""
+
 LAST = 0.5
 """Share of the time after the last kink of the inputs in which the motion is fitted."""
 
 SIMPLE, FITS = 1e-3, 0.05
 """Misfits up to which one exponent, or a pair of them, is said to describe the motion."""
+
+SINE, STEADY = 1e-4, 1e-3
+"""Misfit beyond which an oscillation is no sine, and how much its periods and peaks may differ if it is steady."""
+
+NOISE = 1e-10
+"""Share of the largest rate of the same unit below which a rate is taken for rounding."""
 
 AT_REST = 1e-7
 """Rates below this share of their largest mean that nothing moves any more."""
@@ -51,7 +60,7 @@ def tendency(result: Simulation) -> complex | None:
     """Return the exponent [1/s] that describes the last part of a single motion, None if no single one does.
 
     Fitted are the rates of the states, which vanish on every steady motion, over the last half of the time in which
-    the inputs stay and something moves; 0 means that nothing does.
+    the inputs stay and something moves; 0 means that nothing does, an imaginary value that it swings on steadily.
 
     Examples
     --------
@@ -73,25 +82,46 @@ def tendency(result: Simulation) -> complex | None:
     if not awake.size:
         return 0j
     last = float(times[awake[-1]])
-    times, samples = _rates(result, last - LAST * (last - first), last)
-    if times[-1] <= times[0]:
+    first = last - LAST * (last - first)
+    times, samples = _rates(result, first, last, MOST_SAMPLES)
+    if times[-1] <= times[0] or not samples.shape[1]:
         return 0j
+    swings = np.max(np.sum(np.diff(np.sign(samples), axis=0) != 0, axis=0)) / 2
+    fit_times, fitted = _rates(result, first, last, int(np.clip(PER_PERIOD * swings, SAMPLES, MOST_SAMPLES)))
     for order, limit in ((1, SIMPLE), (2, FITS)):
-        exponents, misfit = fit_exponents(samples, times[1] - times[0], order)
+        exponents, misfit = fit_exponents(fitted, fit_times[1] - fit_times[0], order)
+        if order == 2 and misfit > SINE and (steady := _steady(times, samples)):
+            return 2j * math.pi * steady
         if misfit <= limit and np.isfinite(exponents).all():
-            return complex(exponents[0]) if exponents[0].imag else complex(exponents.real.max())
+            found = complex(exponents[0]) if exponents[0].imag else complex(exponents.real.max())
+            return found if abs(found) * (last - first) > STEADY else None  # a steady rate, as of a car that brakes
     return None
 
 
-def _rates(result: Simulation, first: float, last: float) -> tuple[Array, Array]:
+def _steady(times: Array, samples: Array) -> float:
+    """Return the frequency [Hz] of a motion that repeats itself, 0 if it does not."""
+    leading = samples[:, np.argmax(np.abs(samples).max(axis=0))]
+    up = np.flatnonzero((leading[:-1] < 0) & (leading[1:] >= 0))
+    if len(up) < 4:
+        return 0.0
+    crossings = times[up] - leading[up] * (times[1] - times[0]) / (leading[up + 1] - leading[up])
+    periods = np.diff(crossings)
+    peaks = np.array([np.abs(samples[a:b]).max(axis=0) for a, b in pairwise(up)])
+    same = all(np.ptp(v, axis=0).max() <= STEADY * v.max() for v in (periods, peaks))
+    return float(1 / periods.mean()) if same else 0.0
+
+
+def _rates(result: Simulation, first: float, last: float, count: int = SAMPLES) -> tuple[Array, Array]:
     """Return times between two, and the rates of all states there as shares of their largest, (times, states)."""
-    times = np.linspace(first, last, SAMPLES)
+    times = np.linspace(first, last, count)
     part = result.at(times)
     made, arguments = motion(type(result.vehicle)), result.vehicle.arguments()
     rates = made.rhs(part.values.T, part.input_values.T, arguments)
     whole = made.rhs(result.values.T, result.input_values.T, arguments)
-    typical = np.abs(np.concatenate([rates, whole], axis=1)).max(axis=1)
-    return times, (rates[typical > 0] / typical[typical > 0, None]).T
+    typical, units = np.abs(np.concatenate([rates, whole], axis=1)).max(axis=1), result.units()
+    alike = [[units[a] == units[b] for b in result.states] for a in result.states]
+    moves = typical > NOISE * np.max(np.where(alike, typical, 0), axis=1)
+    return times, (rates[moves] / typical[moves, None]).T
 
 
 def _same(a: Array, b: Array, c: Array) -> bool:

@@ -7,7 +7,7 @@ import math
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
-from ..core.html import math_of, quantity, table, text, with_unit
+from ..core.html import lines, math_of, quantity, table, text, with_unit
 
 if TYPE_CHECKING:
     from .analyze import Analysis
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from .limits import LimitResult
     from .modes import Mode
     from .remedies import Remedy
+    from .sensitivity import Sensitivity
     from .stability_map import StabilityMap
     from .verdict import Verdict
 
@@ -38,7 +39,7 @@ def tabular(result: Tabular) -> str:
     rows: list[Sequence[Any]] = list(zip(*(values[:ROWS] for _, _, values in shown), strict=True))
     if count > ROWS:
         rows.append(["..."] * len(shown))
-    told = f"<pre>{text(str(result))}</pre>" if type(result).__str__ is not object.__str__ else ""
+    told = lines(str(result)) if type(result).__str__ is not object.__str__ else ""
     head = [with_unit(name, unit) for name, unit, _ in shown]
     return table(rows, head, _caption(found, count, len(columns) > COLUMNS)) + told
 
@@ -62,6 +63,18 @@ def mode(found: Mode) -> str:
     """Return one mode, and what takes part in it."""
     shares = [(name, share, found.shape[name]) for name, share in found.participation.items()]
     return modes([found]) + table(shares, ("state", "participation", "shape"))
+
+
+def sensitivity(found: Sensitivity) -> str:
+    """Return what one percent of each parameter does to growth and critical speeds, a row each."""
+    rows = []
+    for key, slope in found.growth.items():
+        p = float(found.vehicle.values[key])
+        speeds = [of.normalised.get(key) for of in found.critical]
+        rows.append((key, p * float(slope) / 100, *(None if s is None or math.isnan(s) else s for s in speeds)))
+    heads = [f"{of.critical.value:.4g} {of.critical.unit} [%]" for of in found.critical]
+    caption = f"Change for +1 % of each parameter: {name_of(found.vehicle)}"
+    return table(rows, ("parameter", "growth [1/s]", *heads), caption)
 
 
 def critical(found: Sequence[Critical], caption: str = "") -> str:
@@ -90,16 +103,38 @@ def critical_values(found: CriticalValues) -> str:
     return critical(found.values, f"Critical values of {found.parameter}: {name_of(found.vehicle)}")
 
 
-def remedies(found: Sequence[Remedy]) -> str:
-    """Return remedies, a row each."""
+def remedies(found: Sequence[Remedy], of: Analysis | None = None) -> str:
+    """Return remedies, a row each; values are rounded to the side that helps, those of an analysis to few digits."""
     rows = []
     for r in found:
-        word = "no value helps" if r.value is None else "at least" if r.value > r.present else "at most"
-        change = "" if r.value is None or not math.isfinite(r.relative) else f"{r.relative:+.1%}"
-        rows.append((r.parameter, word, quantity(r.value, r.unit), quantity(r.present, r.unit), change, r.meaning))
+        word, value, change = (*r.told(), r.relative) if of is None or r.value is None else advice_of(r, of)
+        share = "" if r.value is None or change is None else percent(change)
+        unit = "" if r.unit == "1" or r.value is None else f" {r.unit}"
+        rows.append((r.parameter, word, f"{value}{unit}", quantity(r.present, r.unit), share, r.meaning))
     if not rows:
         return "<p>nothing to remedy</p>"
     return table(rows, ("parameter", "", "value", "now", "change", "meaning"), "Remedies, each enough alone")
+
+
+def percent(share: float) -> str:
+    """Return a change in percent, two digits of it.
+
+    >>> percent(1.2613), percent(-0.0544)
+    ('+130 %', '-5.4 %')
+    """
+    from .advice import decimal_text, rounded
+
+    if not math.isfinite(share):
+        return ""
+    return f"{'+' if share > 0 else ''}{decimal_text(rounded(100 * share, 2, 0))} %"
+
+
+def advice_of(found: Remedy, of: Analysis) -> tuple[str, str, float | None]:
+    """Return a remedy's word, value and relative change as the command line prints them."""
+    from .advice import advice
+
+    told = advice(found, of)
+    return told.word, told.text, told.relative
 
 
 def verdict(found: Verdict) -> str:
@@ -149,5 +184,5 @@ def analysis(found: Analysis) -> str:
     if found.criteria is not None:
         parts.append(criteria(found.criteria))
     if helpful := [r for r in found.remedies if r.value is not None]:
-        parts.append(remedies(helpful))
+        parts.append(remedies(helpful, found))
     return "".join(parts)

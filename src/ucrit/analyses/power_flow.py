@@ -13,17 +13,20 @@ from ..bondgraph.graph import Bond
 from ..bondgraph.model import BondGraphModel, graph_of, states_bond_graph
 from ..core.errors import UcritError
 from ..core.model import Model, Names
+from .convert import Series, Table, Tabular
 from .simulation import Simulation
 
 Array = npt.NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class PowerFlow:
+class PowerFlow(Tabular):
     """Powers along a simulated motion.
 
     Attributes
     ----------
+    vehicle
+        The vehicle that was simulated.
     times
         [s], shape (T,).
     powers
@@ -39,6 +42,7 @@ class PowerFlow:
         about; for junctions, transformers and gyrators also the power that does not pass through.
     """
 
+    vehicle: Model
     times: Array
     powers: Array
     energy: Array
@@ -46,6 +50,20 @@ class PowerFlow:
     dissipated: Array
     bonds: tuple[Bond, ...] = ()
     faults: dict[str, float] = field(default_factory=dict)
+
+    def table(self) -> Table:
+        """Return the powers of the bonds, the energy, and what is supplied and dissipated, over time."""
+        coords = (
+            Series("time", ("time",), self.times, "s"),
+            Series("bond", ("bond",), 1 + np.arange(self.powers.shape[1])),
+        )
+        data = (
+            Series("energy", ("time",), self.energy, "J"),
+            Series("supplied", ("time",), self.supplied, "W"),
+            Series("dissipated", ("time",), self.dissipated, "W"),
+            Series("power", ("time", "bond"), self.powers, "W"),
+        )
+        return Table("power", self.vehicle, coords, data, ("time",))
 
     @property
     def imbalance(self) -> float:
@@ -97,7 +115,7 @@ def power_flow(simulation: Simulation) -> PowerFlow:
     table = np.array([np.broadcast_to(v, simulation.times.shape) for v in values], dtype=np.float64)
     powers, (energy, supplied, dissipated), rest = np.split(table, np.cumsum([len(bonds), 3]))
     faults = _faults(names, rest[::2], rest[1::2])
-    return PowerFlow(simulation.times, powers.T, energy, supplied, dissipated, bonds, faults)
+    return PowerFlow(simulation.vehicle, simulation.times, powers.T, energy, supplied, dissipated, bonds, faults)
 
 
 def _faults(names: list[str], left: Array, right: Array) -> dict[str, float]:

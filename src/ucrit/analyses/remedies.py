@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Self
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +15,7 @@ from ..core.errors import UcritError
 from ..core.model import Model
 from ..core.possible import allowed
 from ..numerics.hurwitz import stable
+from .convert import Series, Table, Tabular
 from .critical import critical
 
 Array = npt.NDArray[Any]
@@ -56,13 +58,22 @@ class Remedy:
     value: float | None
     relative: float
 
+    def told(self) -> tuple[str, str]:
+        """Return ``"at least"`` or ``"at most"``, and six digits of the value, rounded to the side that helps."""
+        from .advice import decimal_text, rounded
+
+        if self.value is None:
+            return "no value helps", ""
+        rising = self.value > self.present
+        return "at least" if rising else "at most", decimal_text(rounded(self.value, 6, 1 if rising else -1))
+
     def __str__(self) -> str:
         if self.value is None:
             return f"{self.parameter}: no value helps"
-        word = "at least" if self.value > self.present else "at most"
+        word, value = self.told()
         share = f" ({self.relative:+.1%})" if math.isfinite(self.relative) else ""
         unit = "" if self.unit == "1" else f" {self.unit}"
-        return f"{self.parameter}: {word} {self.value:.6g}{unit} instead of {self.present:.6g}{share}"
+        return f"{self.parameter}: {word} {value}{unit} instead of {self.present:.6g}{share}"
 
     def _repr_html_(self) -> str:
         from . import notebook
@@ -70,10 +81,41 @@ class Remedy:
         return notebook.remedies([self])
 
 
-class Remedies(tuple[Remedy, ...]):
-    """The remedies for one vehicle: a tuple that a notebook shows as a table."""
+class Remedies(tuple[Remedy, ...], Tabular):
+    """The remedies for one vehicle: a tuple that a notebook shows as a table.
 
-    __slots__ = ()
+    Attributes
+    ----------
+    vehicle
+        The vehicle as it is.
+    """
+
+    vehicle: Model
+
+    def __new__(cls, vehicle: Model, found: Iterable[Remedy] = ()) -> Self:
+        """Return the remedies that were found for a vehicle."""
+        made = super().__new__(cls, found)
+        made.vehicle = vehicle
+        return made
+
+    def __reduce__(self) -> Any:
+        return Remedies, (self.vehicle, tuple(self))
+
+    def table(self) -> Table:
+        """Return one row for each parameter, with its unit; a value that does not exist is nan."""
+        rows = ("parameter",)
+        texts = {
+            name: np.array([getattr(r, name) for r in self], dtype=str) for name in ("parameter", "unit", "meaning")
+        }
+        value = np.array([math.nan if r.value is None else r.value for r in self], dtype=float)
+        data = (
+            Series("present", rows, np.array([r.present for r in self], dtype=float)),
+            Series("value", rows, value),
+            Series("relative", rows, np.array([r.relative for r in self], dtype=float), "1"),
+            Series("unit", rows, texts["unit"]),
+            Series("meaning", rows, texts["meaning"]),
+        )
+        return Table("remedies", self.vehicle, (Series("parameter", rows, texts["parameter"]),), data, rows)
 
     def __str__(self) -> str:
         return "\n".join(map(str, self)) or "nothing to remedy"
@@ -115,9 +157,9 @@ def remedies(vehicle: Model, upto: float | None = None, since: float = 0.0) -> R
     name = declared.speed
     speeds = None if name is None else _speeds(vehicle, name, upto, since)
     if _stable(vehicle, speeds):
-        return Remedies()
+        return Remedies(vehicle)
     found = [_remedy(vehicle, key, speeds) for key in declared.parameters if key != name]
-    return Remedies(sorted(found, key=lambda r: (r.value is None, abs(r.relative))))
+    return Remedies(vehicle, sorted(found, key=lambda r: (r.value is None, abs(r.relative))))
 
 
 def _speeds(vehicle: Model, name: str, upto: float | None, since: float) -> Array:

@@ -220,8 +220,8 @@ def _conditions(a: Sequence[Any]) -> tuple[tuple[str, ...], bool | None, bool]:
     """Return what must be positive, whether signs settle that, and whether the polynomial may change its sign."""
     import sympy as sp
 
+    from ..core.characteristic import characteristic_polynomial
     from ..core.factor import definite_sign
-    from ..core.linear import characteristic_polynomial
     from .conditions import conditions
 
     polynomial = characteristic_polynomial([sp.Matrix([[c]]) for c in a], "polynomial")
@@ -229,7 +229,7 @@ def _conditions(a: Sequence[Any]) -> tuple[tuple[str, ...], bool | None, bool]:
     facts = conditions(polynomial, symbols, "polynomial")
     if polynomial.zeros or facts["kind"] == "neutral":
         return (), False, False
-    either_sign = facts["settled"] is None and definite_sign(polynomial.coefficients[-1]) is None
+    either_sign = facts["settled"] is None and definite_sign(polynomial.leading) is None
     return tuple(c["expression"] for c in facts["conditions"]), facts["settled"], either_sign
 
 

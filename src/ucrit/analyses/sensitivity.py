@@ -86,7 +86,7 @@ class Sensitivity(Tabular):
         return {name: slope * np.asarray(values[name])[..., None] for name, slope in self.slopes.items()}
 
     def table(self) -> Table:
-        """Return the slopes, one variable a parameter."""
+        """Return the slopes of eigenvalues, growth and critical speeds, one variable a parameter."""
         dims = tuple(self.vehicle.dims)
         coords = [Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.vehicle.dims.items()]
         coords.append(Series("mode", ("mode",), np.array(self.names)))
@@ -95,7 +95,26 @@ class Sensitivity(Tabular):
             unit = _per("1/s", unit_of(self.vehicle, name))
             data += complex_series(f"d_eigenvalue_d_{name}", (*dims, "mode"), slope, unit)
             data.append(Series(f"d_growth_d_{name}", dims, np.asarray(self.growth[name]), unit))
+        if not dims:
+            coords.append(Series("critical", ("critical",), np.arange(1, 1 + len(self.critical))))
+            data += self._of_critical()
         return Table("sensitivity", self.vehicle, tuple(coords), tuple(data), (*dims, "mode"))
+
+    def _of_critical(self) -> list[Series]:
+        name = type(self.vehicle).declaration.speed
+        unit = "1" if name is None else unit_of(self.vehicle, name)
+        speeds = np.array([c.critical.value for c in self.critical], dtype=float)
+        found = [Series("critical_speed", ("critical",), speeds, unit)]
+        for key in self.slopes:
+            slopes = np.array([c.slopes.get(key, np.nan) for c in self.critical], dtype=float)
+            per = _per(unit, unit_of(self.vehicle, key))
+            found.append(Series(f"d_critical_speed_d_{key}", ("critical",), slopes, per))
+        return found
+
+    def _repr_html_(self) -> str:
+        from . import notebook
+
+        return super()._repr_html_() if self.vehicle.dims else notebook.sensitivity(self)
 
 
 def _per(unit: str, divisor: str) -> str:

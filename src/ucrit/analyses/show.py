@@ -11,6 +11,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from ..catalogue import BONDS, PUBLISHED, controller_names, find_model, load, model_names, vehicle_names
+from ..core import html
 from ..core.cache import cached
 from ..core.compiled import direction
 from ..core.declare import Input, Output, Parameter, Variable
@@ -32,6 +33,33 @@ class Formula:
 
     def _repr_latex_(self) -> str:
         return f"$\\displaystyle {self.latex}$"
+
+    def _repr_html_(self) -> str:
+        return f"<p>{html.math_of(self.mathml)}</p>"
+
+
+class Polynomial(tuple[Formula, ...]):
+    """Coefficients a_0, a_1, ... of a polynomial in s: a tuple that a notebook shows as formulas.
+
+    >>> print(show("cart").polynomial)
+    a_0 = 0
+    a_1 = U*b*m
+    a_2 = I_z + b**2*m
+    """
+
+    __slots__ = ()
+
+    def __str__(self) -> str:
+        return "\n".join(f"a_{k} = {coefficient}" for k, coefficient in enumerate(self))
+
+    def _repr_html_(self) -> str:
+        rows = [(html.Raw(f"<i>s</i><sup>{k}</sup>"), html.math_of(a.mathml)) for k, a in enumerate(self)]
+        return html.table(rows, ("power", "coefficient"))
+
+    def _repr_latex_(self) -> str:
+        powers = ("", "s", *(f"s^{{{k}}}" for k in range(2, len(self))))
+        terms = [f"\\left({a.latex}\\right) {s}" for a, s in zip(self, powers, strict=False) if a.text != "0"]
+        return f"$\\displaystyle {' + '.join(terms)}$"
 
 
 Matrix = tuple[tuple[Formula, ...], ...]
@@ -73,7 +101,7 @@ class ModelDescription:
     unknowns: tuple[str, ...]
     P: tuple[Matrix, ...]
     Q: Matrix
-    polynomial: tuple[Formula, ...]
+    polynomial: Polynomial
     criteria: Criteria | None
     why_no_criteria: str
     vehicle: Model | None
@@ -91,7 +119,11 @@ class ModelDescription:
             },
             "vehicle": None
             if vehicle is None
-            else {**_info(vehicle), "parameters": {k: float(v) for k, v in vehicle.values.items()}},
+            else {
+                **_info(vehicle),
+                "parameters": {k: float(v) for k, v in vehicle.values.items()},
+                **vehicle.info.tolerances.to_dict(),
+            },
             "parameters": [
                 {
                     "name": p.name,
@@ -124,14 +156,13 @@ class ModelDescription:
         return "\n".join([*lines, "", *(f"{f} = 0" for f in self.equations)])
 
     def _repr_html_(self) -> str:
-        from ..core import html
-
         rows = [(p.name, "" if p.unit == "1" else p.unit, p.meaning, p.allowed) for p in self.parameters]
         table = html.table(rows, ("parameter", "unit", "meaning", "allowed"), self.title)
         equations = "".join(
             f'<p><math display="block"><mrow>{f.mathml}<mo>=</mo><mn>0</mn></mrow></math></p>' for f in self.equations
         )
-        return table + equations
+        head = f"<p>{html.text(f'Characteristic polynomial of degree {len(self.polynomial) - 1}')}</p>"
+        return table + equations + head + self.polynomial._repr_html_()
 
 
 def show(subject: type[Model] | Model | str | os.PathLike[str]) -> ModelDescription:
@@ -171,7 +202,7 @@ def show(subject: type[Model] | Model | str | os.PathLike[str]) -> ModelDescript
         unknowns=tuple(facts["unknowns"]),
         P=tuple(_matrix(M) for M in facts["P"]),
         Q=_matrix(facts["Q"]),
-        polynomial=_formulas(facts["polynomial"]),
+        polynomial=Polynomial(_formulas(facts["polynomial"])),
         criteria=found,
         why_no_criteria=why,
         vehicle=vehicle,

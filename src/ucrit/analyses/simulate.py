@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from ..control.late import exactly_delayed
 from ..core.declare import Quantity
 from ..core.errors import UcritError, near_match
 from ..core.model import Model
 from ..core.motion import Motion, motion
 from ..core.units import to_si
 from .follow import METHODS, Course, Drive, Follower
+from .late import LateInput, Memory
 from .manoeuvre_text import parse_shape
 from .manoeuvres import Shape, Signal, constant
 from .simulation import Happening, Simulation
@@ -72,7 +74,8 @@ def simulate(
     -------
     Simulation
         By default by the method of Dormand and Prince of order 8 (E. Hairer, S. P. Norsett, G. Wanner, Solving Ordinary
-        Differential Equations I (1993), section II.10). A constraint is kept as well as at the start.
+        Differential Equations I (1993), section II.10). A constraint is kept as well as at the start. Delays of a
+        vehicle under control are taken as they are, not as approximated for linear work; see `simulate_delayed`.
 
     Raises
     ------
@@ -86,6 +89,28 @@ def simulate(
     >>> [round(float(angle), 4) for angle in falling["theta"]]
     [0.0175, 0.0371]
     """
+    exact, late = exactly_delayed(type(vehicle))
+    if late:
+        from .delays import with_exact_delays
+
+        vehicle, own = with_exact_delays(vehicle, exact, late)
+    else:
+        own = []
+    return followed(vehicle, until, initial, inputs, own, times, tolerance, method, progress)
+
+
+def followed(
+    vehicle: Model,
+    until: float | str,
+    initial: Mapping[str, Any] | None,
+    inputs: Mapping[str, Any] | None,
+    late: Sequence[LateInput],
+    times: Any,
+    tolerance: float | None,
+    method: str,
+    progress: Callable[[float, float], None] | None,
+) -> Simulation:
+    """Follow a motion some of whose inputs are late; see `simulate` for the rest."""
     if tolerance is not None and not SMALLEST <= tolerance <= LARGEST:
         raise UcritError(f"tolerance must be within {SMALLEST:g} and {LARGEST:g}, got {tolerance!r}")
     if method not in METHODS:
@@ -107,8 +132,23 @@ def simulate(
     wanted = (np.linspace(0, last, POINTS) if at is None else at) if lead else None
     where = f"{model.model_id()}: the motion cannot be followed until {last:g} s"
     options: Any = {"tolerance": tolerance, "method": method, "where": where, "progress": progress}
-    course = Follower(made, arguments, start, drive, last, times=wanted, **options).run()
+    memory = _remember(drive, late, lambda w, u: made.outputs(w, u, arguments).reshape(-1, w.shape[1]), last)
+    follower = Follower(made, arguments, start, drive, last, times=wanted, **options)
+    memory.stretches = follower.stretches
+    course = follower.run()
     return _result(vehicle, made, course, arguments, at if wanted is None else wanted, last, spans)
+
+
+def _remember(drive: Drive, late: Sequence[LateInput], outputs: Any, last: float) -> Memory:
+    """Put signals that read what the motion was before in place of the inputs that are late."""
+    memory = Memory(late, outputs)
+    if late:
+        signals = list(drive.signals)
+        for one, signal in zip(late, memory.signals(drive.breaks, last), strict=True):
+            signals[one.place] = signal
+            drive.offsets.pop(one.place, None)
+        drive.signals = signals
+    return memory
 
 
 def _result(

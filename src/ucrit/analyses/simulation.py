@@ -127,7 +127,7 @@ class Simulation(Tabular):
         return units | {n: quantity.unit for n, quantity in (*declared.outputs.items(), *declared.inputs.items())}
 
     def table(self) -> Table:
-        """Return states, outputs and inputs over time with their units."""
+        """Return states, outputs and inputs over time with their units, and events beside them."""
         units, dims = self.units(), self.dims
         coords = [
             Series(n, (n,), v, units[n[8:]] if n[:8] == "initial " else unit_of(self.vehicle, n))
@@ -135,4 +135,18 @@ class Simulation(Tabular):
         ]
         rows = (*dims, "time")
         data = tuple(Series(n, rows, self[n], units[n]) for n in (*self.states, *self.outputs, *self.inputs))
-        return Table("simulation", self.vehicle, (*coords, Series("time", ("time",), self.times, "s")), data, rows)
+        time = Series("time", ("time",), self.times, "s")
+        return Table("simulation", self.vehicle, (*coords, time), data, rows, self._event_series(coords))
+
+    def _event_series(self, coords: list[Series]) -> tuple[Series, ...]:
+        """Return names and times of the events, and of a batch which members they happened to."""
+        if not self.events:
+            return ()
+        happened = ("event",)
+        names = Series("event name", happened, np.array([e.name for e in self.events]))
+        times = Series("event time", happened, np.array([e.time for e in self.events]), "s")
+        places = [
+            Series(f"event {c.name}", happened, c.values[[e.member[axis] for e in self.events]], c.unit)
+            for axis, c in enumerate(coords)
+        ]
+        return (names, times, *places)

@@ -91,7 +91,7 @@ def stability_map(
     vehicle
         With scalar parameters, but for those of the grid.
     engine
-        What computes: ``"numpy"``, ``"numba"`` (compiled code, ten times faster after a second for compiling),
+        What computes: ``"numpy"``, ``"numba"`` (compiled code, twenty times faster after a second for compiling),
         ``"cuda"`` (an NVIDIA GPU), or ``"auto"``: numba for maps so large that it pays, where it is installed.
         The answer is the same.
     margins
@@ -131,7 +131,10 @@ def stability_map(
     for count in shape:
         points *= count
     if points > MAX_POINTS:
-        raise UcritError(f"{type(vehicle).model_id()}: a map of {points:,} points is too large; at most {MAX_POINTS:,}")
+        raise UcritError(
+            f"{type(vehicle).model_id()}: a map of {points:,} points is too large; at most {MAX_POINTS:,} are held in "
+            "memory, 'stream' writes larger ones to disk"
+        )
     rates, damping = _margins(vehicle, coords) if margins else (None, None)
     return StabilityMap(mapped, coords, decide(vehicle, coords, engine), rates, damping)
 

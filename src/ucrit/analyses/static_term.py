@@ -46,9 +46,9 @@ def _words(model: type[Model], direction: int) -> str:
     polynomial = symbolic(model, direction).polynomial
     symbol = next((s for s in polynomial.ring.symbols if s.name == name), None)
     inside = any(s.name == name for f in polynomial.functions.values() for s in f.free_symbols)
-    if name is None or inside or polynomial.zeros == len(polynomial.coefficients) - 1:
+    if name is None or inside or polynomial.zeros == polynomial.order:
         return ""
-    last, first = polynomial.coefficients[polynomial.zeros], polynomial.coefficients[-1]
+    last, first = polynomial.static, polynomial.leading
     common = common_divisor(last, first)
     last, first = last.exquo(common), first.exquo(common)
     signs = definite_sign(last), definite_sign(first)

@@ -24,6 +24,9 @@ Array = npt.NDArray[Any]
 BACK = 1e-9
 """The family is back at its start when the moving quantity is this share of its way beyond it."""
 
+CANNOT = "it cannot be followed further"
+"""How the end of a family begins that broke off."""
+
 
 class Problem:
     """Conditions for steady motions of one vehicle; `UcritError` where names or numbers of conditions are wrong."""
@@ -268,7 +271,7 @@ class Problem:
             "start": f"{self.along} is back where it began",
             "closed": "the family closes",
             "points": f"after {len(curve.points)} points",
-            "failed": f"it cannot be followed further: {curve.reason}",
+            "failed": f"{CANNOT}: {curve.reason}",
         }
         return known.get(curve.end, curve.end)
 

@@ -10,7 +10,7 @@ import json
 import os
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from hashlib import sha256
 from itertools import islice
 from pathlib import Path
@@ -102,15 +102,14 @@ def stream(
     xarray = needed("xarray", "scale", "a labelled array")
     found = job(vehicle, kind, chunk, ranges)
     path = str(Path(store).absolute())
-    with _writing(path):
+    with nullcontext() if client is None else _connected(client) as cluster, _writing(path):
         group = _opened(zarr, path, found)
         done = np.asarray(group[DONE][...]) != 0
-    total, count = done.size, int(done.sum())
-    todo = (place for place in found.places() if not done[place])
-    if progress is not None:
-        progress(count, total)
-    with _writing(path):
-        for _ in _computed(found, path, todo, client):
+        total, count = done.size, int(done.sum())
+        todo = (place for place in found.places() if not done[place])
+        if progress is not None:
+            progress(count, total)
+        for _ in _computed(found, path, todo, cluster):
             count += 1
             if progress is not None:
                 progress(count, total)
@@ -200,14 +199,13 @@ def _made(zarr: Any, path: str, found: Job, told: dict[str, Any]) -> Any:
     return group
 
 
-def _computed(found: Job, path: str, todo: Iterator[Place], client: Any) -> Iterator[None]:
+def _computed(found: Job, path: str, todo: Iterator[Place], cluster: Any) -> Iterator[None]:
     """Yield chunks as they are done: here, or by the workers of a cluster."""
-    if client is None:
+    if cluster is None:
         for place in todo:
             write_chunk(found.part(place), path, place, found.slices(place))
             yield
-        return
-    with _connected(client) as cluster:
+    else:
         yield from _by_workers(found, path, todo, cluster)
 
 

@@ -152,7 +152,8 @@ def _check_size(shape: tuple[int, ...], order: int, where: str) -> None:
     if size > MAX_BYTES:
         raise UcritError(
             f"{where}: a sweep of {points:,} points needs {size / 2**30:.1f} GiB and "
-            f"{MAX_BYTES / 2**30:.1f} GiB are allowed; take fewer points, or a stability_map"
+            f"{MAX_BYTES / 2**30:.1f} GiB are allowed; take fewer points, or write them to a .zarr store "
+            "(in Python with 'stream')"
         )
 
 

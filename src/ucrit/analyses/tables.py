@@ -43,6 +43,8 @@ def read_columns(path: str | os.PathLike[str], name: str, unit: str) -> tuple[li
     names = [head for head, _ in heads]
     if len(set(names)) < len(names):
         raise UcritError(f"{where} heads two columns alike: {', '.join(names)}")
+    if len(names) == 1 and ";" in kept[0][1][0]:
+        raise UcritError(f"{where} must have columns parted by commas and decimal points, got semicolons")
     for wanted in ("time", name):
         if wanted not in names:
             raise UcritError(f"{where} has no column '{wanted}'{near_match(wanted, names)}")

@@ -23,6 +23,9 @@ LOADS = (1500.0, 3000.0, 4500.0, 6000.0)
 ENVELOPE = (2.0, 5.0, 10.0, 20.0)
 """Slip angles [degrees] of the envelope."""
 
+REACH = np.radians(np.linspace(0, 90, 61)[:-1])
+"""Slip angles [rad] among which the limit of friction is sought."""
+
 ANGLES = {"rad": 1.0, "deg": np.pi / 180}
 
 
@@ -50,6 +53,9 @@ class TireCurves(Tabular):
         Longitudinal force [N] without slip angle, shape (R, L, K).
     envelope_x, envelope_y
         Longitudinal and side force [N] together, shape (R, L, S, K).
+    limit_x, limit_y
+        The limit of friction: the forces [N] farthest out in each of D directions, from braking to driving, of all
+        that any two slips give, shape (R, L, D). Its shape is near an ellipse.
     """
 
     tire: Any
@@ -63,6 +69,8 @@ class TireCurves(Tabular):
     F_x: Array
     envelope_x: Array
     envelope_y: Array
+    limit_x: Array
+    limit_y: Array
 
     @property
     def cornering_coefficient(self) -> Array:
@@ -87,7 +95,7 @@ class TireCurves(Tabular):
 
     def table(self) -> Table:
         """Return all curves with their units, side by side: the points of a shorter one end in nan."""
-        count = max(self.alpha.size, self.kappa.size)
+        count = max(self.alpha.size, self.kappa.size, self.limit_x.shape[-1])
 
         def padded(values: Array) -> Array:
             return np.pad(
@@ -109,6 +117,8 @@ class TireCurves(Tabular):
             Series("F_x", free, padded(self.F_x), "N"),
             Series("envelope_x", both, padded(self.envelope_x), "N"),
             Series("envelope_y", both, padded(self.envelope_y), "N"),
+            Series("limit_x", free, padded(self.limit_x), "N"),
+            Series("limit_y", free, padded(self.limit_y), "N"),
         )
         return Table("tire curves", _bench(self.tire), coords, data, free)
 
@@ -171,6 +181,8 @@ def tire_curves(
     straight = [one.forces(F_z[:, None], 0.0, slips, gamma) for one in tires]
     both = [one.forces(F_z[:, None, None], combined[:, None], slips, gamma) for one in tires]
 
+    limits = [_limit(one, F_z, slips, gamma) for one in tires]
+
     def stacked(found: list[Any], name: str, *shape: int) -> Array:
         return np.array([np.broadcast_to(getattr(forces, name), (F_z.size, *shape)) for forces in found], dtype=float)
 
@@ -181,7 +193,19 @@ def tire_curves(
         F_x=stacked(straight, "F_x", slips.size),
         envelope_x=stacked(both, "F_x", combined.size, slips.size),
         envelope_y=stacked(both, "F_y", combined.size, slips.size),
+        limit_x=np.stack([x for x, _ in limits]),
+        limit_y=np.stack([y for _, y in limits]),
     )
+
+
+def _limit(tire: Any, F_z: Array, slips: Array, gamma: float) -> tuple[Array, Array]:
+    """Return the forces [N] farthest out in directions from braking to driving, each (L, D)."""
+    found = tire.forces(F_z[:, None, None], REACH[:, None], slips, gamma)
+    shape = (F_z.size, REACH.size, slips.size)
+    F_x, F_y = (np.broadcast_to(F, shape).reshape(F_z.size, -1) for F in (found.F_x, found.F_y))
+    theta = np.linspace(np.pi, 0, 91)[:, None]
+    out = [np.argmax(x * np.cos(theta) - y * np.sin(theta), axis=-1) for x, y in zip(F_x, F_y, strict=True)]
+    return np.take_along_axis(F_x, np.array(out), -1), np.take_along_axis(F_y, np.array(out), -1)
 
 
 def cornering_coefficient(alpha: Sequence[float] | Array, force: Sequence[float] | Array, unit: str = "rad") -> float:

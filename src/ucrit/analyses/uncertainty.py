@@ -109,18 +109,28 @@ class Uncertainty(Tabular):
     @property
     def sentence(self) -> str:
         """The distribution in words."""
+        return self.words()
+
+    def words(self, say: Callable[[float], str] = speed_text) -> str:
+        """Return the distribution in words.
+
+        Parameters
+        ----------
+        say
+            Writes a speed [m/s].
+        """
         low, middle, high = (self.quantile(share) for share in QUANTILES)
         if np.isinf(low):
             text = f"in {1 - self.never:.3g} of all cases stability is lost at some speed"
-            return text if self.never < 1 else f"stability is never lost{self._limit()}, in {self.samples} cases"
-        ends = speed_text(high) if np.isfinite(high) else "none at all"
-        text = f"critical speed {_speed(middle)} in the middle, in 9 of 10 cases from {_speed(low)} to {ends}"
+            return text if self.never < 1 else f"stability is never lost{self._limit(say)}, in {self.samples} cases"
+        ends = [_speed(speed, say) for speed in (middle, low, high)]
+        text = f"critical speed {ends[0]} in the middle, in 9 of 10 cases from {ends[1]} to {ends[2]}"
         if self.never:
-            text += f"; never lost{self._limit()} in {_share(self.never)} of all cases"
+            text += f"; never lost{self._limit(say)} in {_share(self.never)} of all cases"
         return text + (f"; unstable at every speed in {_share(self.always)}" if self.always else "")
 
-    def _limit(self) -> str:
-        return "" if np.isinf(self.upto) else f" up to {_speed(self.upto)}"
+    def _limit(self, say: Callable[[float], str]) -> str:
+        return "" if np.isinf(self.upto) else f" up to {say(self.upto)}"
 
     def table(self) -> Table:
         """Return one row for each vehicle: its parameters and its critical speed."""
@@ -134,8 +144,8 @@ class Uncertainty(Tabular):
         return self.sentence + ("" if self.influence is None else f"\n{self.influence}")
 
 
-def _speed(speed: float) -> str:
-    return speed_text(speed) if np.isfinite(speed) else "none at all"
+def _speed(speed: float, say: Callable[[float], str]) -> str:
+    return say(speed) if np.isfinite(speed) else "none at all"
 
 
 def _share(share: float) -> str:

@@ -6,6 +6,8 @@ import math
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from .analyze import Analysis
     from .critical import Critical
 
@@ -23,8 +25,8 @@ def speed_text(speed: float) -> str:
     return f"{speed:.4g} m/s ({speed * 3.6:.3g} km/h)"
 
 
-def describe(analysis: Analysis) -> str:
-    """Return the verdict of an analysis as one sentence."""
+def describe(analysis: Analysis, say: Callable[[float], str] = speed_text) -> str:
+    """Return the verdict of an analysis as one sentence; ``say`` writes a speed [m/s]."""
     if analysis.speed is None or analysis.critical is None:
         return _at_a_point(analysis)
     top = abs(analysis.speed)
@@ -34,12 +36,12 @@ def describe(analysis: Analysis) -> str:
     backing = " backing up" if analysis.speed < 0 else ""
     every = f"{backing} at every speed" + (" to" if backing else " up to")
     if analysis.stable:
-        return f"{word}{every} {speed_text(top)}" + _beyond(analysis, top) + _position(analysis)
+        return f"{word}{every} {say(top)}" + _beyond(analysis, top, say) + _position(analysis)
     if not inside:
-        return f"unstable{every} {speed_text(top)}: {_growth(analysis)}" + _from(ranges)
+        return f"unstable{every} {say(top)}: {_growth(analysis)}" + _from(ranges, say)
     a, b = max(inside, key=lambda r: r[1] - r[0])
     edges = {abs(c.value): c for c in analysis.critical}
-    text = f"{word}{backing} " + (f"up to {speed_text(b)}" if a == 0 else f"from {speed_text(a)} to {speed_text(b)}")
+    text = f"{word}{backing} " + (f"up to {say(b)}" if a == 0 else f"from {say(a)} to {say(b)}")
     below, above = edges.get(a), edges.get(b)
     parts = [f"below it {_grows(below)}" if below else "", f"above it {_grows(above)}" if above else ""]
     told = [part for part in parts if part]
@@ -71,17 +73,17 @@ def _growth(analysis: Analysis) -> str:
     return f"{how}, doubling in {mode.time_to_double:.2g} s"
 
 
-def _beyond(analysis: Analysis, top: float) -> str:
+def _beyond(analysis: Analysis, top: float, say: Callable[[float], str]) -> str:
     above = [c for c in analysis.critical or () if top < abs(c.value) < max(FASTEST, 10 * top)]
     if above:
         first = min(above, key=lambda c: abs(c.value))
-        return f"; above {speed_text(abs(first.value))} {_grows(first)}"
+        return f"; above {say(abs(first.value))} {_grows(first)}"
     return ", and at every higher one" if analysis.verdict.state != "neutral" else ""
 
 
-def _from(ranges: list[list[float]]) -> str:
+def _from(ranges: list[list[float]], say: Callable[[float], str]) -> str:
     later = [a for a, _ in ranges if math.isfinite(a) and a > 0]
-    return f"; stable above {speed_text(min(later))}" if later else ""
+    return f"; stable above {say(min(later))}" if later else ""
 
 
 def _position(analysis: Analysis) -> str:

@@ -71,7 +71,7 @@ def _stable(subject: Subject, sets: list[Array], direction: int) -> tuple[Flags,
     order = np.argsort(np.abs(roots), axis=-1)[:, made.structural_zeros :]
     largest = np.take_along_axis(roots.real, order, axis=-1).max(axis=-1)
     near = np.abs(largest) <= NEAR * np.abs(roots).max(axis=-1)
-    if not any(polynomial.coefficients[polynomial.zeros + 1 :: 2]):
+    if polynomial.undamped:
         return near, np.ones_like(near)
     return largest < 0, ~near
 
@@ -80,7 +80,7 @@ def derived_criterion(subject: Subject) -> str:
     """The symbolic criterion derived from the model is met exactly where the eigenvalues say stable."""
     for direction in subject.directions:
         polynomial = subject.system(direction).polynomial
-        order = len(polynomial.coefficients) - 1
+        order = polynomial.order
         if order == polynomial.zeros:
             raise NotApplicableError("every eigenvalue is zero, whatever the parameters")
         if order > MAX_ORDER:

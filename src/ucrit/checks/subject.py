@@ -36,7 +36,9 @@ class Subject:
         """Return the subject for a class or for a vehicle."""
         if isinstance(model, Model):
             return cls(type(model), (model,), seed, published)
-        return cls(model, vehicles_of(model.model_id()), seed, published)
+        names = model.declaration.parameters.keys()
+        alike = (vehicle for vehicle in vehicles_of(model.model_id()) if names <= vehicle.values.keys())
+        return cls(model, tuple(alike), seed, published)
 
     @property
     def directions(self) -> tuple[int, ...]:

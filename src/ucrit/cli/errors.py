@@ -79,7 +79,17 @@ def _sentence(error: Exception) -> str | None:
     if errors and isinstance(error, errors.UcritError):
         return str(error)
     place = _in_user_file(error.__traceback__)
-    return place and f"{place}: {type(error).__name__}: {error}"
+    return place and f"{place}: {type(error).__name__}: {error}{_hint(error)}"
+
+
+def _hint(error: Exception) -> str:
+    """Say what to do about errors that symbols raise, with which a model's equations are run once."""
+    told = str(error)
+    if isinstance(error, TypeError) and "to float" in told:
+        return "; equations are run with symbols: take sin, cos, sqrt ... from ucrit.core, not from math or numpy"
+    if isinstance(error, TypeError) and "truth value" in told:
+        return "; equations are run with symbols: take where(condition, one, other) from ucrit.core instead of 'if'"
+    return ""
 
 
 def _in_user_file(trace: TracebackType | None) -> str | None:

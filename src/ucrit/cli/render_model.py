@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from ..core.tolerances import Tolerances
 from .terminal import Page, vehicle_head
 from .wrap import number, shorten
 
@@ -123,13 +124,17 @@ def _unit(unit: str) -> str:
 def _parameters(page: Page, found: ModelDescription) -> None:
     page.heading("Parameters")
     values = {} if found.vehicle is None else found.vehicle.values
+    tolerances = Tolerances() if found.vehicle is None else found.vehicle.info.tolerances
     rows = []
     for p in found.parameters:
         value = [number(float(values[p.name]), 6)] if values else []
+        known = f" ({tolerances.of(p.name)})" if tolerances.of(p.name) else ""
         default = "" if p.default is None or values else f"; {number(p.default, 6)} by default"
         allowed = p.allowed.replace(f" {p.unit}", "").replace(" in", "")
-        rows.append([p.name, *value, _unit(p.unit), f"{p.meaning}; {allowed}{default}"])
+        rows.append([p.name, *value, _unit(p.unit), f"{p.meaning}{known}; {allowed}{default}"])
     page.table(rows, right=(1,) if values else ())
+    for one, other, coefficient in tolerances.correlations:
+        page.line(f"  {one} and {other} are correlated: {number(coefficient, 6)}")
 
 
 def _equations(page: Page, found: ModelDescription) -> None:

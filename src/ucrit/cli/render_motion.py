@@ -14,7 +14,8 @@ if TYPE_CHECKING:
 
     from ..analyses.simulation import Simulation
 
-MOST_EVENTS = 20
+MOST_EVENTS, SHORT = 12, 40
+"""Events that are listed one by one, and the length up to which the states at an event are told."""
 
 
 def show_motion(console: Console, found: Simulation, until: str, files: Sequence[str]) -> None:
@@ -40,9 +41,20 @@ def _events(page: Page, found: Simulation) -> None:
         return
     page.heading("Events")
     rows = [[f"{number(e.time, 6)} s", e.name, _states(e.states)] for e in found.events]
-    page.table(rows[:MOST_EVENTS], right=(0,))
     if len(rows) > MOST_EVENTS:
-        page.paragraph(f"... {len(rows) - MOST_EVENTS} more", "dim", indent=2)
+        rows = _counted(found)
+    page.table([row if max(len(r[2]) for r in rows) <= SHORT else row[:2] for row in rows], right=(0,))
+
+
+def _counted(found: Simulation) -> list[list[str]]:
+    """Return one row for each kind of event: when first, how often, and when last."""
+    kinds: dict[str, list[float]] = {}
+    for e in found.events:
+        kinds.setdefault(e.name, []).append(e.time)
+    return [
+        [f"{number(at[0], 6)} s", name, f"{len(at)} times, last at {number(at[-1], 6)} s" if at[1:] else ""]
+        for name, at in kinds.items()
+    ]
 
 
 def _states(states: dict[str, float] | object) -> str:

@@ -86,7 +86,7 @@ class _Saturation(Actuator):
         return self.reached(u0, maximum(-limit, minimum(limit, self.demand(u, u0))))
 
 
-class _Delay(Actuator):
+class Delay(Actuator):
     """Delay, as the all-pass function of H. Pade whose series agrees with the exponential's the longest."""
 
     _order = 1
@@ -127,7 +127,7 @@ def _make(base: type[Actuator], text: str, input: str, unit: str, meaning: str, 
         body[f"rate_{input}"] = Parameter(_rate_unit(unit), f"largest rate of the {meaning}", above=0)
     if base is _Saturation:
         body[f"max_{input}"] = Parameter(unit, f"largest {meaning} beyond the basic motion", above=0)
-    if base is _Delay:
+    if base is Delay:
         body[f"T_{input}"] = Parameter("s", f"delay of the {meaning}", above=0)
         for k in range(order):
             body[f"{input}_delayed_{k + 1}"] = Variable(
@@ -138,7 +138,7 @@ def _make(base: type[Actuator], text: str, input: str, unit: str, meaning: str, 
 
 def _of(base: type[Actuator], word: str, model: type[Model] | Model, input: str, order: int = 1) -> type[Actuator]:
     quantity = input_of(model, input)
-    text = f"{word}({input})" if base is not _Delay else f"{word}({input}, {order})"
+    text = f"{word}({input})" if base is not Delay else f"{word}({input}, {order})"
     return made(_make, base, text, input, quantity.unit, quantity.meaning, order)  # type: ignore[no-any-return]
 
 
@@ -215,7 +215,7 @@ def delay(model: type[Model] | Model, input: str, order: int | str = 2) -> type[
     input
         Name of an input, which becomes the demand.
     order
-        Number of states, from 1 to 12; `simulate_delayed` takes delays as they are.
+        Number of states, from 1 to 12; `simulate` takes the delay as it is.
 
     Raises
     ------
@@ -226,6 +226,15 @@ def delay(model: type[Model] | Model, input: str, order: int | str = 2) -> type[
     -----
     The diagonal Pade approximation of ``exp(-T s)``: of gain 1 at all frequencies, its phase true up to
     ``omega T`` of about the order.
+
+    Examples
+    --------
+    >>> from ucrit import load, simulate
+    >>> from ucrit.control import close
+    >>> car = load("bmw-320i")
+    >>> late = close(car, delay(car, "delta_f"), T_delta_f=0.1)
+    >>> simulate(late, 0.2, inputs={"delta_f": 0.02}, times=[0.05, 0.15])["delta_f_actual"].round(9).tolist()
+    [0.0, 0.02]
     """
     try:
         n = int(order)
@@ -233,4 +242,4 @@ def delay(model: type[Model] | Model, input: str, order: int | str = 2) -> type[
         n = 0
     if not 1 <= n <= MOST or str(n) != str(order):
         raise UcritError(f"the order of a delay must be a whole number from 1 to {MOST}, got {order!r}")
-    return _of(_Delay, "delay", model, input, n)
+    return _of(Delay, "delay", model, input, n)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cache
-from typing import Any
+from typing import Any, ClassVar
 
 from ..core.declare import Input, Output, Parameter
 from ..core.errors import ModelError, UcritError, near_match
@@ -50,6 +50,8 @@ def close(vehicle: Model, *controllers: type[Controller], **values: Any) -> Mode
     UcritError
         If a value is missing, misspelt or not allowed; see also `closed`.
     """
+    if not isinstance(vehicle, Model):
+        raise UcritError(f"close takes a vehicle; for a model without numbers take closed; got {vehicle!r}")
     model = closed(type(vehicle), *controllers)
     found = model(**{**vehicle.values, **values})
     found.__dict__["info"] = vehicle.info
@@ -78,7 +80,7 @@ def broken(model: type[Model], input: str) -> type[Model]:
     UcritError
         If no controller drives the input.
     """
-    plant, chain = _chain(model)
+    plant, chain = chain_of(model)
     known_names = [name for controller in chain for name in controller.drives]
     if input not in known_names:
         known = ", ".join(dict.fromkeys(known_names)) or "none"
@@ -97,6 +99,7 @@ class _Cut(Controller):
     """Cut of the loop, next to the vehicle."""
 
     through = True
+    stands_for: ClassVar[Mapping[str, str]] = {}
     _cut = ""
 
     def law(self, u: Any) -> Any:
@@ -108,6 +111,7 @@ class _Cut(Controller):
 
 def _make_cut(input: str, unit: str, meaning: str) -> type[Controller]:
     body: dict[str, Any] = {"drives": (input,), "_cut": input, "__doc__": _Cut.__doc__}
+    body["stands_for"] = {f"{input}_cut": input}
     body[f"{input}_cut"] = Input(unit, f"{meaning} where the loop is cut")
     body[f"{input}_return"] = Output(unit, f"{meaning} that comes back")
     return type("Cut", (_Cut,), body)
@@ -120,12 +124,12 @@ def _cut_of(plant: type[Model], input: str) -> type[Controller]:
 
 def driven(model: type[Model]) -> list[str]:
     """Return the inputs of the vehicle itself, without controllers, that are driven."""
-    plant, chain = _chain(model)
+    plant, chain = chain_of(model)
     names = dict.fromkeys(name for controller in chain for name in controller.drives)
     return [name for name in names if name in plant.declaration.inputs]
 
 
-def _chain(model: type[Model]) -> tuple[Any, list[type[Controller]]]:
+def chain_of(model: type[Model]) -> tuple[Any, list[type[Controller]]]:
     """Return the vehicle's own model and its controllers, the first one closed first."""
     chain: list[type[Controller]] = []
     while issubclass(model, ClosedLoop):
@@ -160,10 +164,12 @@ def _close(plant: type[Model], controller: type[Controller]) -> type[Model]:
     body |= {"even": (*getattr(plant, "even", ()), *getattr(controller, "even", ()))}
     body |= {"mirror": getattr(plant, "mirror", True) and getattr(controller, "mirror", True)}
     body |= {"sides": (*getattr(plant, "sides", ()), *getattr(controller, "sides", ()))}
+    body |= {"twins": {**getattr(plant, "twins", {}), **getattr(controller, "twins", {})}}
     body |= {name: getattr(plant, name) for name in ("keeps_speed", "wheel_loads", "valid") if hasattr(plant, name)}
     if hasattr(plant, "possible") or hasattr(controller, "possible"):
         body["possible"] = _possible
-    body |= {name: own for name, own in {"events": _events, "drawing": _drawing}.items() if hasattr(plant, name)}
+    body |= {"drawing": _drawing} if hasattr(plant, "drawing") else {}
+    body |= {"events": _events} if hasattr(plant, "events") or hasattr(controller, "events") else {}
     return type(f"{plant.__name__}With{controller.__name__}", (ClosedLoop,), body)
 
 
@@ -177,10 +183,15 @@ def _free(name: str, taken: Mapping[str, Any]) -> str:
 
 
 def _events(self: ClosedLoop, x: Any, dx: Any, ddx: Any, u: Any) -> Any:
-    """Return the vehicle's events."""
+    """Return the events of vehicle and controller."""
     groups = {"x": x, "dx": dx, "ddx": ddx, "u": u}
-    driven = {name: self._driven(groups)[_reaching(name)] for name in self._controller.drives}
-    return call(self._bound(self._plant).events, {**groups, "u": Names("u", {**_named(u), **driven})})
+    given, found = self._driven(groups), {}
+    if hasattr(self._plant, "events"):
+        driven = {name: given[_reaching(name)] for name in self._controller.drives}
+        found = dict(call(self._bound(self._plant).events, {**groups, "u": Names("u", {**_named(u), **driven})}))
+    if hasattr(self._controller, "events"):
+        found |= call(self._law().events, self._seen(groups, given))
+    return found
 
 
 def _drawing(self: ClosedLoop, x: Any, u: Any) -> Any:
@@ -251,9 +262,9 @@ class ClosedLoop(Model):
             if hasattr(instance, "basic_motion"):
                 for group, values in instance.basic_motion().items():
                     given.setdefault(group, {}).update(values)
-        cut = getattr(self._controller, "_cut", None)
-        if cut in given["u"]:
-            given["u"][f"{cut}_cut"] = given["u"][cut]
+        for name, of in getattr(self._controller, "stands_for", {}).items():
+            if of in given["u"]:
+                given["u"][name] = given["u"][of]
         given["u"] = {name: value for name, value in given["u"].items() if name in declared.inputs}
         return given
 

@@ -40,7 +40,7 @@ class Controller(Model):
 
     drives: ClassVar[tuple[str, ...]] = ()
     through: ClassVar[bool] = False
-    _arguments = MappingProxyType({**ARGUMENTS, "law": SEEN, "equations": SEEN, "outputs": SEEN})
+    _arguments = MappingProxyType({**ARGUMENTS, "law": SEEN, "equations": SEEN, "outputs": SEEN, "events": SEEN})
 
     @classmethod
     def model_id(cls) -> str:

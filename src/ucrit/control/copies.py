@@ -16,6 +16,17 @@ from ..core.declare import Quantity, Variable
 from ..core.errors import UcritError, near_match
 from ..core.model import Model
 
+KNOWN = "known"
+"""Ending of parameters that the law has values of its own for."""
+
+DESIRED = "d"
+"""Ending of the reference's states and parameters."""
+
+
+def plain_name(label: str) -> str:
+    """Return a state's name without signs."""
+    return label.replace("'", "_dot")
+
 
 def state_names(model: type[Model]) -> dict[str, str]:
     """Return the model's linear states in order: label (``theta'``) and name without signs (``theta_dot``)."""

@@ -62,7 +62,7 @@ def place(vehicle: Model, inputs: str | Sequence[str], poles: Any, *, estimated:
     [(-4+3j), (-4-3j)]
     """
     names, A, B, labels = _wanted(vehicle, inputs, estimated)
-    K = place_gains(A, B, checked_poles(poles, len(A)), labels, f"{' and '.join(names)} cannot move")
+    K = place_gains(A, B, checked_poles(poles, labels), labels, f"{' and '.join(names)} cannot move")
     return _fed_back(vehicle, names, labels, K, estimated)
 
 
@@ -149,8 +149,8 @@ def observer(
     [-14.0, -12.0, -4.0, -3.0]
     """
     names, A, C, labels = _seen(vehicle, measured)
-    doing = f"{' and '.join(names)} do not show"
-    L = place_gains(A.T, C.T, checked_poles(poles, len(A)), labels, doing).T
+    doing = _does_not_show(names)
+    L = place_gains(A.T, C.T, checked_poles(poles, labels), labels, doing).T
     return _with_observer(vehicle, names, labels, L, own, unknown)
 
 
@@ -192,14 +192,17 @@ def kalman(
     """
     names, A, C, labels = _seen(vehicle, measured)
     W, V = weights(process, labels, "process", False), weights(noise, names, "noise", True)
-    L = regulator_gains(A.T, C.T, W, V, labels, f"{' and '.join(names)} do not show").T
+    L = regulator_gains(A.T, C.T, W, V, labels, _does_not_show(names)).T
     return _with_observer(vehicle, names, labels, L, own, unknown)
 
 
 def _wanted(vehicle: Model, inputs: Any, estimated: bool) -> tuple[tuple[str, ...], Array, Array, list[str]]:
     """Return the inputs, A and B of what feedback shall move, and its states."""
     _refuse_arrays(vehicle)
-    names = (inputs,) if isinstance(inputs, str) else tuple(inputs)
+    try:
+        names = (inputs,) if isinstance(inputs, str) else tuple(inputs)
+    except TypeError:
+        raise UcritError(f"inputs must be a name or a list of names, got {inputs!r}") from None
     for name in names:
         input_of(vehicle, name)
     if not names:
@@ -221,6 +224,10 @@ def _seen(vehicle: Model, measured: Any) -> tuple[tuple[str, ...], Array, Array,
     every = dict(zip(type(vehicle).declaration.outputs, C, strict=True))
     every |= dict(zip(labels, np.eye(len(labels)), strict=True))
     return names, A, np.array([every[name] for name in names]), labels
+
+
+def _does_not_show(names: Sequence[str]) -> str:
+    return f"{' and '.join(names)} {'does' if len(names) == 1 else 'do'} not show"
 
 
 def _refuse_arrays(vehicle: Model) -> None:

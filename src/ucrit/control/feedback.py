@@ -224,6 +224,7 @@ def _observer(
     body["_unknown"] = unknown
     words = (*measured, *(f"own {name}" for name in own), *(f"unknown {name}" for name in unknown))
     body |= {"_id": f"observer({', '.join(words)})", "__doc__": Observer.__doc__}
+    body["twins"] = {f"{plain}_{HAT}": (at.rstrip("'"), at.count("'")) for at, plain in state_names(model).items()}
     body |= own_parameters(model, own, HAT) | own_states(model, HAT, "estimated")
     for label in state_names(model):
         for name in measured:

@@ -54,14 +54,19 @@ def in_words(pole: complex) -> str:
     return f"{pole.real:.4g}{pole.imag:+.4g}j"
 
 
-def checked_poles(poles: Any, n: int) -> Array:
-    """Return the poles [1/s] that are wanted, refuse a wrong number, poles without their conjugates or not finite."""
+def checked_poles(poles: Any, states: Sequence[str]) -> Array:
+    """Return the poles [1/s] that are wanted, one for each state.
+
+    Raises `UcritError` for a wrong number, and for poles that are not finite or lack their conjugates.
+    """
     try:
         found = np.atleast_1d(np.asarray(poles, dtype=complex))
     except (TypeError, ValueError):
         raise UcritError(f"poles must be a list of complex numbers [1/s], got {poles!r}") from None
-    if found.ndim != 1 or len(found) != n:
-        raise UcritError(f"there must be as many poles as states, {n}, got {found.size}")
+    if found.ndim != 1 or len(found) != len(states):
+        raise UcritError(
+            f"there must be as many poles as states, {len(states)} ({', '.join(states)}), got {found.size}: {poles!r}"
+        )
     if not np.isfinite(found).all():
         raise UcritError(f"poles must be finite, got {poles!r}")
     for pole in found:
@@ -146,7 +151,8 @@ def _placed(A: Array, B: Array, poles: Array, doing: str) -> Array:
     size = np.abs(poles).max() or 1.0
     error = np.abs((found - wanted) / size ** np.arange(len(wanted))).max()
     if not error < SPREAD * 2 ** len(poles):
-        raise UcritError(f"{doing} well enough: the gains come out too inexact to place the poles")
+        farthest = in_words(poles[np.argmax(np.abs(poles))])
+        raise UcritError(f"{doing} poles as far as {farthest} 1/s: the gains come out too inexact to place them")
     return np.asarray(np.real(K))
 
 
@@ -211,7 +217,10 @@ def weights(given: Any, names: Sequence[str], thing: str, definite: bool) -> Arr
             key = name if name in values else plain.get(name.replace("_dot", "'"), "")
             if key not in values:
                 raise UcritError(f"{thing}: there is no '{name}'{near_match(name, names)}")
-            values[key] = float(value)
+            try:
+                values[key] = float(value)
+            except (TypeError, ValueError):
+                raise UcritError(f"{thing}: the weight of {key} must be a number, got {value!r}") from None
         matrix = np.diag([values[name] for name in names])
     else:
         try:
@@ -221,6 +230,10 @@ def weights(given: Any, names: Sequence[str], thing: str, definite: bool) -> Arr
         matrix = np.diag(np.broadcast_to(matrix, (n,))) if matrix.ndim < 2 and matrix.size in (1, n) else matrix
     if matrix.shape != (n, n):
         raise UcritError(f"{thing} must weigh {', '.join(names)}: {n} numbers or a {n} x {n} matrix")
+    for name, value in zip(names, np.diag(matrix), strict=True):
+        if not (value > 0 or (value == 0 and not definite)):
+            word = "above" if definite else "at least"
+            raise UcritError(f"{thing}: the weight of {name} must be {word} 0, got {value:g}")
     least = np.linalg.eigvalsh((matrix + matrix.T) / 2)[0] if np.isfinite(matrix).all() else -np.inf
     if not np.allclose(matrix, matrix.T) or (least <= 0 if definite else least < -1e-12 * np.abs(matrix).max()):
         raise UcritError(f"{thing} must be symmetric and {'above' if definite else 'at least'} 0 in every direction")

@@ -13,15 +13,17 @@ from typing import Any
 
 import numpy.typing as npt
 
-from ..core.declare import Input, Output, Parameter
+from ..core.declare import Input, Output, Parameter, algebraic
 from ..core.errors import UcritError
-from ..core.functions import maximum, minimum, sign
+from ..core.functions import maximum, minimum
 from ..core.made import made
 from ..core.model import Model
 from .actuators import Actuator, input_of, model_of
-from .closed import ClosedLoop
+from .closed import ClosedLoop, chain_of
 from .controller import Controller
 from .copies import (
+    DESIRED,
+    KNOWN,
     basic_states,
     bound_parameters,
     checked_states,
@@ -29,6 +31,7 @@ from .copies import (
     linear_in_symbols,
     own_parameters,
     own_states,
+    plain_name,
     rates,
     ratio,
     state_meaning,
@@ -36,14 +39,9 @@ from .copies import (
     symbol_of,
 )
 from .feedback import HAT, Observer
+from .jumping import Jumping
 
 Array = npt.NDArray[Any]
-
-KNOWN = "known"
-"""Ending of parameters that the law has values of its own for."""
-
-DESIRED = "d"
-"""Ending of the reference's states and parameters."""
 
 
 class SlidingMode(Controller):
@@ -98,9 +96,13 @@ class SlidingMode(Controller):
             wanted = rates(self._reference, DESIRED, *self._followed(x, u))
             drift -= sum(self._weight(label) * wanted[label] for label in self._surface)
         S = self._error(x, dx, u)
-        reach = sign(S) if self._signum else maximum(-1, minimum(1, S / self.__dict__["phi_S"]))
+        reach = self._reach(S, x, u)
         drift += self.__dict__["q_S"] * S + self.__dict__["alpha_S"] * reach
         return {name: getattr(u0, name) - drift / along(B[:, inputs.index(name)])}
+
+    def _reach(self, S: Any, x: Any, u: Any) -> Any:
+        """Return what stands for the sign of S."""
+        return maximum(-1, minimum(1, S / self.__dict__["phi_S"]))
 
     def _followed(self, x: Any, u: Any) -> tuple[dict[str, Any], Any, dict[str, Any]]:
         """Return parameters, states and inputs of the reference."""
@@ -137,11 +139,6 @@ class FollowingSlidingMode(SlidingMode):
 linear_once: Any = cache(linear_in_symbols)
 
 
-def plain_name(label: str) -> str:
-    """Return a state's name without signs."""
-    return label.replace("'", "_dot")
-
-
 def _sliding(
     model: type[Model],
     input: str,
@@ -162,6 +159,9 @@ def _sliding(
         meaning = f"weight of the {state_meaning(model, label)} in the sliding variable"
         body[f"c_{plain_name(label)}"] = Parameter(ratio(first, state_unit(model, label)), meaning)
     body["q_S"] = Parameter("1/s", "rate at which a large sliding variable shrinks", at_least=0, default=0.0)
+    if signum:
+        body["side_S"] = Input("1", "side of the sliding variable that the law counts on: 1, -1, or 0 while it slides")
+        body["jump_S"] = algebraic("1", "what stands for the sign of the sliding variable")
     body["alpha_S"] = Parameter(f"{first}/s", "least rate of change of the sliding variable", at_least=0)
     if not signum:
         body["phi_S"] = Parameter(first, "width of the boundary layer of the sliding variable", above=0)
@@ -175,7 +175,8 @@ def _sliding(
         body["_reference_own"] = all_own
         body |= own_parameters(reference, all_own, DESIRED) | own_states(reference, DESIRED, "desired")
     body["S"] = Output(first, "sliding variable")
-    return type(base.__name__, (base,), body)
+    bases = (Jumping, base) if signum else (base,)
+    return type(base.__name__, bases, body)
 
 
 def sliding(
@@ -207,7 +208,8 @@ def sliding(
     estimated
         States for which an observer's estimates are taken.
     signum
-        Whether the law jumps at ``S = 0``; else it is linear within the boundary layer ``phi_S``.
+        Whether the law jumps at ``S = 0``; else it is linear within the boundary layer ``phi_S``. In simulation S is
+        then kept at zero by the equivalent control; behind an actuator the law would chatter and is refused.
 
     Raises
     ------
@@ -221,6 +223,8 @@ def sliding(
     signum = signum or "signum" in surface
     if reference is None and "reference" in surface:
         reference = cls
+    if signum:
+        _refuse_actuator(model_of(model))
     names = [word for word, _, rest in listed if word not in ("signum", "reference") and not rest]
     input_of(cls, input)
     if not names:
@@ -244,6 +248,15 @@ def sliding(
     return made(  # type: ignore[no-any-return]
         _sliding, cls, input, labels, follows, kept, checked_states(cls, estimated), signum
     )
+
+
+def _refuse_actuator(model: type[Model]) -> None:
+    """Refuse a law that jumps above an actuator, behind which nothing keeps S at zero."""
+    between = next((c.model_id() for c in chain_of(model)[1] if issubclass(c, Actuator)), None)
+    if between:
+        raise UcritError(
+            f"{model.model_id()}: behind {between} a law that jumps would chatter; give a boundary layer phi"
+        )
 
 
 def bare_model(model: type[Model]) -> type[Model]:

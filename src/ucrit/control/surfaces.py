@@ -12,9 +12,9 @@ from ..core.compiled import state_space
 from ..core.errors import UcritError
 from ..core.model import Model
 from .closed import close
-from .copies import checked_states, parameter_values, state_names
+from .copies import DESIRED, KNOWN, checked_states, parameter_values, plain_name, state_names
 from .gains import in_words, named
-from .sliding import DESIRED, KNOWN, bare_model, plain_name, sliding
+from .sliding import bare_model, sliding
 
 Array = npt.NDArray[Any]
 
@@ -161,11 +161,24 @@ def reaching_time(S: float, alpha: float, q: float = 0.0, disturbance: float = 0
     float
         ``ln(1 + q |S|/(alpha - disturbance))/q``; infinite where alpha is not above the disturbance.
 
+    Raises
+    ------
+    UcritError
+        If a number is not finite, or alpha or q is below 0.
+
     Examples
     --------
     >>> reaching_time(0.5, alpha=2)
     0.25
     """
+    for name, value, least in (
+        ("S", S, -np.inf),
+        ("alpha", alpha, 0),
+        ("q", q, 0),
+        ("disturbance", disturbance, -np.inf),
+    ):
+        if not (isinstance(value, int | float | np.number) and np.isfinite(value) and value >= least):
+            raise UcritError(f"{name} must be a finite number{' of at least 0' if least == 0 else ''}, got {value!r}")
     rate, size = alpha - disturbance, abs(S)
     if not size:
         return 0.0

@@ -71,6 +71,18 @@ def _printer() -> Any:
                 return f"({product})" if exponent > 0 else f"(1/({product}))"
             return str(super()._print_Pow(expr, rational=rational))
 
+        def _print_Max(self, expr: Any) -> str:
+            return self._nested("numpy.maximum", expr)
+
+        def _print_Min(self, expr: Any) -> str:
+            return self._nested("numpy.minimum", expr)
+
+        def _nested(self, name: str, expr: Any) -> str:
+            text, *others = map(self._print, expr.args)
+            for other in others:
+                text = f"{name}({text}, {other})"
+            return str(text)
+
         def _print_Piecewise(self, expr: Any) -> str:
             *pieces, (last, always) = expr.args
             text = self._print(last) if always == True else "numpy.nan"  # noqa: E712
@@ -96,6 +108,41 @@ def build(source: str, name: str, *, exact: bool = False, functions: Any = None)
     exec(compile(source, f"<generated {name}>", "exec"), namespace)
     function: Callable[..., tuple[Any, ...]] = namespace[name]
     return function
+
+
+def build_for_points(source: str, name: str) -> Callable[..., tuple[Any, ...]]:
+    """Compile generated source for arrays, and for single points at the speed of Python's own floats.
+
+    Numbers that Python refuses, such as one over zero in a case that does not hold, are NumPy's matter.
+    """
+    arrays, floats = build(source, name), build(source, name, functions=_FloatFunctions())
+
+    def either(*groups: Any) -> tuple[Any, ...]:
+        if all(getattr(item, "ndim", 0) == 0 for group in groups for item in group):
+            try:
+                return floats(*([float(item) for item in group] for group in groups))
+            except (ArithmeticError, ValueError):
+                pass
+        return arrays(*groups)
+
+    return either
+
+
+class _FloatFunctions:
+    """NumPy's functions for single floats: those of `math`, which raise an error where NumPy's give no number."""
+
+    where = staticmethod(lambda condition, yes, no: yes if condition else no)
+    sign = staticmethod(lambda x: x if x != x else float((x > 0) - (x < 0)))
+    arctan2, arctan, arcsin, arccos = math.atan2, math.atan, math.asin, math.acos
+    sin, cos, tan, sqrt, exp, log, tanh, abs = (
+        *(math.sin, math.cos, math.tan, math.sqrt, math.exp, math.log, math.tanh),
+        abs,
+    )
+
+    def __getattr__(self, name: str) -> Any:
+        import numpy
+
+        return getattr(numpy, name)
 
 
 class _ExactFunctions:

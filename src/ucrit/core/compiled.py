@@ -103,6 +103,17 @@ class Compiled:
         """The same function for `fractions.Fraction`: exact, but for functions such as cosines of parameters."""
         return build(self._facts["coefficients"], "coefficients", exact=True)
 
+    def exact_factors(self, arguments: Arguments) -> list[list[Any]]:
+        """Return the coefficients of each factor of the polynomial for `fractions.Fraction`, without roots at zero."""
+        flat, found = iter(self._exact_factors(arguments)), []
+        for size in self._facts["sizes"]:
+            found.append([next(flat) for _ in range(size)])
+        return found
+
+    @cached_property
+    def _exact_factors(self) -> Callable[[Arguments], tuple[Any, ...]]:
+        return build(self._facts["factors"], "factors", exact=True)
+
     @cached_property
     def _matrices(self) -> Callable[[Arguments], tuple[Any, ...]]:
         return build(self._facts["matrices"], "matrices")

@@ -31,16 +31,19 @@ def linear_facts(model: type[Model], direction: int) -> dict[str, Any]:
     parameters = list(system.traced.parameters.values())
     blocks = (e.L, e.R, e.Q, e.Cw, e.Cz, e.D)
     names = [chain[0].name for chain in system.traced.q]
+    swap, factors = dict(polynomial.functions), polynomial.factors
     return {
         "order": sum(e.orders),
         "zeros": polynomial.zeros,
-        "undamped": not any(polynomial.coefficients[polynomial.zeros + 1 :: 2]),
+        "undamped": polynomial.undamped,
         "variables": names,
         "states": [(name, k) for name, order in zip(names, e.orders, strict=True) for k in range(order)],
         "shapes": [block.shape for block in blocks],
         "degrees": {name: polynomial.degrees(symbol) for name, symbol in system.traced.parameters.items()},
         "matrices": generate("matrices", [parameters], [entry for block in blocks for entry in block]),
         "coefficients": generate("coefficients", [parameters], polynomial.expressions),
+        "sizes": [len(factor) for factor in factors],
+        "factors": generate("factors", [parameters], [a.as_expr().xreplace(swap) for f in factors for a in f]),
     }
 
 
@@ -49,12 +52,11 @@ def size_facts(model: type[Model], direction: int) -> dict[str, Any]:
     polynomial = symbolic(model, direction).polynomial
     parameters = list(symbolic(model, direction).traced.parameters.values())
     names = list(polynomial.functions)
-    positive = [polynomial.ring.from_dict({m: abs(c) for m, c in a.terms()}) for a in polynomial.coefficients]
-    degrees = [max((sum(m) for m in a.itermonoms()), default=0) for a in polynomial.coefficients]
+    magnitudes, units = polynomial.bounds()
     return {
         "functions": generate("functions", [parameters], [polynomial.functions[name] for name in names]),
-        "magnitudes": generate("magnitudes", [parameters, names], [a.as_expr() for a in positive]),
-        "units": [len(a) + 6 * degree + 8 for a, degree in zip(polynomial.coefficients, degrees, strict=True)],
+        "magnitudes": generate("magnitudes", [parameters, names], magnitudes),
+        "units": units,
     }
 
 
@@ -63,7 +65,7 @@ def slope_facts(model: type[Model], direction: int) -> dict[str, Any]:
     system = symbolic(model, direction)
     parameters = list(system.traced.parameters.values())
     slopes = [entry.diff(p) for p in parameters for block in (system.explicit.L, system.explicit.R) for entry in block]
-    static = system.polynomial.expressions[system.polynomial.zeros]
+    static = system.polynomial.static.as_expr().xreplace(dict(system.polynomial.functions))
     return {
         "slopes": generate("slopes", [parameters], slopes),
         "static": generate("static", [parameters], [static.diff(p) for p in parameters]),
@@ -73,8 +75,8 @@ def slope_facts(model: type[Model], direction: int) -> dict[str, Any]:
 def motion_facts(model: type[Model]) -> dict[str, Any]:
     """Derive the non-linear equations solved for the highest derivatives, and the outputs."""
     traced = trace(model, direction=None)
-    solved = solve_for_highest(traced)
-    parameters = list(traced.parameters.values())
+    solved = solve_for_highest(traced, iterated=True)
+    parameters, z = list(traced.parameters.values()), list(traced.highest)
     conditions = constraints(traced)
     terms = [sp.Add.make_args(sp.expand(condition)) for condition in conditions]
     rates: list[tuple[str, int]] = []
@@ -89,10 +91,23 @@ def motion_facts(model: type[Model]) -> dict[str, Any]:
         "conditions": [str(condition) for condition in conditions],
         "lengths": [len(summands) for summands in terms],
         "terms": generate("terms", [traced.states, traced.u, parameters], [t for summands in terms for t in summands]),
-        "motion": generate("motion", [traced.states, traced.u, parameters], [*solved.M, *solved.f]),
+        "implicit": [z.index(symbol) for symbol in solved.implicit],
+        "motion": generate(
+            "motion", [traced.states, traced.u, parameters, z if solved.implicit else ()], [*solved.M, *solved.f]
+        ),
         "outputs": generate("outputs", [traced.states, traced.highest, traced.u, parameters], traced.outputs),
         "basic": generate("basic", [parameters], [traced.basic.get(s, 0) for s in (*traced.states, *traced.u)]),
     }
+
+
+def motion_switch_facts(model: type[Model]) -> dict[str, Any]:
+    """Derive the values whose sign changes are kinks of the equations of motion."""
+    from .switches import switches
+
+    traced = trace(model, direction=None)
+    solved, moving = solve_for_highest(traced), {*traced.states, *traced.u}
+    found = [e for e in switches([*solved.M, *solved.f]) if e.free_symbols & moving]
+    return {"values": generate("values", [traced.states, traced.u, list(traced.parameters.values())], found)}
 
 
 def motion_event_facts(model: type[Model]) -> dict[str, Any]:
@@ -105,7 +120,7 @@ def motion_event_facts(model: type[Model]) -> dict[str, Any]:
 def motion_slope_facts(model: type[Model]) -> dict[str, Any]:
     """Derive how the residuals ``M z - f`` of the non-linear equations change with states, inputs and parameters."""
     traced = trace(model, direction=None)
-    solved, z = solve_for_highest(traced), sp.Matrix(traced.highest)
+    solved, z = solve_for_highest(traced, iterated=True), sp.Matrix(traced.highest)
     parameters = list(traced.parameters.values())
     residuals = solved.M * z - solved.f
     groups = traced.states, traced.highest, traced.u, parameters

@@ -22,11 +22,11 @@ def check_dimensions(traced: Traced) -> None:
     """
     declared, known = traced.model.declaration, _known(traced)
     free = {chain[0] for chain in traced.q[len(declared.variables) :]}
-    where = traced.model.model_id()
+    where, seen = traced.model.model_id(), dict[Any, Dimension | None]()
     for number, residual in enumerate(traced.residuals, 1):
-        dimension_of(residual.xreplace(dict.fromkeys(free, sp.S.Zero)), known, f"{where}: equation {number}")
+        dimension_of(residual.xreplace(dict.fromkeys(free, sp.S.Zero)), known, f"{where}: equation {number}", seen)
     for output, expression in zip(declared.outputs.values(), traced.outputs, strict=True):
-        found = dimension_of(expression, known, f"{where}: output {output.name}")
+        found = dimension_of(expression, known, f"{where}: output {output.name}", seen)
         if found is not None and found != output.dimension:
             raise ModelError(f"{where}: output {output.name} is declared in {output.unit} but comes out in {found}")
 
@@ -47,8 +47,22 @@ def _known(traced: Traced) -> dict[Any, Dimension]:
     return known
 
 
-def dimension_of(expression: Any, known: dict[Any, Dimension], where: str) -> Dimension | None:
-    """Return the dimension of an expression, ``None`` for zero, which fits anything."""
+def dimension_of(
+    expression: Any, known: dict[Any, Dimension], where: str, seen: dict[Any, Dimension | None] | None = None
+) -> Dimension | None:
+    """Return the dimension of an expression, ``None`` for zero, which fits anything.
+
+    What has been ``seen`` in the same sum or another is not looked into again.
+    """
+    seen = {} if seen is None else seen
+    if expression not in seen:
+        seen[expression] = _dimension_of(expression, known, where, seen)
+    return seen[expression]
+
+
+def _dimension_of(
+    expression: Any, known: dict[Any, Dimension], where: str, seen: dict[Any, Dimension | None]
+) -> Dimension | None:
     if expression.is_zero:
         return None
     if expression.is_Symbol:
@@ -57,9 +71,9 @@ def dimension_of(expression: Any, known: dict[Any, Dimension], where: str) -> Di
         return NUMBER
     if isinstance(expression, sp.Piecewise):
         for relation in sp.And(*(condition for _, condition in expression.args)).atoms(sp.core.relational.Relational):
-            _alike(relation, [dimension_of(side, known, where) for side in relation.args], where)
-        return _alike(expression, [dimension_of(value, known, where) for value, _ in expression.args], where)
-    parts = [dimension_of(argument, known, where) for argument in expression.args]
+            _alike(relation, [dimension_of(side, known, where, seen) for side in relation.args], where)
+        return _alike(expression, [dimension_of(value, known, where, seen) for value, _ in expression.args], where)
+    parts = [dimension_of(argument, known, where, seen) for argument in expression.args]
     if expression.is_Mul:
         total = NUMBER
         for part in parts:

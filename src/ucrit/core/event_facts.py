@@ -45,6 +45,7 @@ def event_facts(model: type[Model]) -> dict[str, Any]:
         "names": list(found),
         "ends": [e.ends for e in found.values()],
         "ways": [WAYS[e.when] for e in found.values()],
+        "starts": [e.from_start for e in found.values()],
         "values": generate("values", groups, values),
         "places": places,
         "settings": generate("settings", groups, settings),

@@ -26,6 +26,7 @@ class Event:
     when: str = "either"
     after: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
     during: Any = True
+    from_start: bool = False
 
 
 def event(
@@ -35,6 +36,7 @@ def event(
     when: str = "either",
     after: Mapping[str, Mapping[str, Any]] | None = None,
     during: Any = True,
+    from_start: bool = False,
 ) -> Event:
     """Describe an event of a model.
 
@@ -52,6 +54,8 @@ def event(
 
     during
         Condition without which it does not happen: ``u.locked < 0.5``.
+    from_start
+        Whether it also happens at time 0 where the value is beyond zero already, in the direction that counts.
 
     Raises
     ------
@@ -67,4 +71,4 @@ def event(
         raise ModelError(f"an event is told when '{when}'{near_match(when, WAYS)}")
     if ends and after:
         raise ModelError("an event either ends the motion or sets values after it, not both")
-    return Event(value, ends, when, after or {}, during)
+    return Event(value, ends, when, after or {}, during, from_start)

@@ -17,14 +17,14 @@ for what it states.
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Set
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from .errors import UcritError, near_match
 from .model import Model
 from .part import Part
-from .tolerances import read_tolerances, write_correlations
+from .tolerances import Tolerances, read_tolerances, write_correlations
 
 TEXTS = ("name", "source", "note")
 KEYS = ("model", "graph", *TEXTS, "controllers", "parts", "parameters", "correlations")
@@ -43,18 +43,21 @@ class Find(NamedTuple):
         Gives a model under the control of some controllers.
     graph
         Gives the model that a bond graph's text states, for a name and where the text stands.
+    changed
+        Gives the law of a name among the changes, where that is not looked up as a name in the file is.
     """
 
     model: Callable[[str], type[Model]]
     part: Callable[[str, type[Part]], type[Part]]
     controlled: Callable[[type[Model], tuple[str, ...]], type[Model]]
     graph: Callable[[str, str, str], type[Model]]
+    changed: Callable[[str, type[Part]], type[Part]] | None = None
 
 
 def read_text(path: Path) -> str:
     """Return a file's text; raise `UcritError` where it is not there, not a file or not text."""
     try:
-        return path.read_text(encoding="utf-8")
+        return path.read_text(encoding="utf-8-sig")  # editors on Windows begin files with a mark
     except FileNotFoundError:
         raise UcritError(f"there is no file '{path}'") from None
     except IsADirectoryError:
@@ -83,7 +86,8 @@ def parse_vehicle(
     find
         Gives models, parts and controllers of a name.
     changes
-        Parameter values that replace or complete the file's.
+        Parameter values that replace or complete the file's; and names of laws, by the slots that take them. Of the
+        file's values for such a slot those stay that the new law has too.
     at_speed
         Value for whichever parameter is the model's speed.
 
@@ -108,14 +112,28 @@ def parse_vehicle(
     try:
         name = content["model"]
         model = find.graph(content["graph"], name, "graph") if "graph" in content else find.model(name)
+        given = dict(changes or {})
+        fresh = {name: given.pop(name) for name in model.declaration.slots if name in given}
         model = model.fitted(**_laws(model, content.get("parts", {}), find.part))
-        model = find.controlled(model, _controllers(content.get("controllers", [])))
+        refitted = model.fitted(**_laws(model, fresh, find.changed or find.part))
+        controllers = _controllers(content.get("controllers", []))
+        model, refitted = find.controlled(model, controllers), find.controlled(refitted, controllers)
         parameters, tolerances = read_tolerances(parameters, content.get("correlations", {}), model)
-        vehicle = model(**{**parameters, **(changes or {}), **_speed(model, at_speed)})
+        gone = model.declaration.parameters.keys() - refitted.declaration.parameters.keys()
+        if gone:
+            parameters, tolerances = _without(gone, parameters, tolerances)
+        vehicle = refitted(**{**parameters, **given, **_speed(model, at_speed)})
     except UcritError as error:
         raise type(error)(f"{where}: {error}") from None
     texts = {key: content[key] for key in TEXTS if key in content}
     return vehicle.with_info(**{"name": Path(where).stem, **texts, "file": where, "tolerances": tolerances})
+
+
+def _without(gone: Set[str], parameters: Mapping[str, Any], tolerances: Tolerances) -> tuple[Any, Tolerances]:
+    """Return values and tolerances but for those of parameters that a slot's new law does not have."""
+    kept = tuple(t for t in tolerances if t.name not in gone)
+    correlated = tuple(pair for pair in tolerances.correlations if gone.isdisjoint(pair[:2]))
+    return {name: v for name, v in parameters.items() if name not in gone}, Tolerances(kept, correlated)
 
 
 def _controllers(names: Any) -> tuple[str, ...]:
@@ -174,15 +192,18 @@ def vehicle_template(model: type[Model], name: str | None = None, vehicle: Model
     if "parts" in made_of:
         lines += ["", "[parts]", *(f"{key} = {_quoted(law)}" for key, law in made_of["parts"].items())]
     lines += ["", '[parameters]   # a number is in the SI unit shown; a text carries its own: "110 km/h"']
+    known = info.tolerances.around(vehicle.values) if info and vehicle else Tolerances()
     for key, parameter in model.declaration.parameters.items():
         comment = f"{parameter.meaning} [{parameter.unit}], {parameter.allowed}"
         value = vehicle.values[key] if vehicle else parameter.default
-        tolerance = info.tolerances.of(key) if info else None
+        tolerance, former = known.of(key), info.tolerances.of(key) if info else None
+        if former and not tolerance:
+            comment += f"; its value lies outside {former.low!r} to {former.high!r}, where it was known to be"
         left = f"# {key} = "
         if value is not None:
             left = f"{key} = {tolerance.entry(float(value)) if tolerance else repr(float(value))}"
         lines.append(f"{left:<28} # {comment}")
-    lines += write_correlations(info.tolerances) if info else []
+    lines += write_correlations(known)
     return "\n".join(lines) + "\n"
 
 

@@ -49,6 +49,8 @@ def where(condition: Any, yes: Any, no: Any) -> Any:
     if any(hasattr(argument, "free_symbols") for argument in (condition, yes, no)):
         import sympy
 
+        if condition in (True, False):
+            return yes if condition else no
         return sympy.Piecewise((yes, condition), (no, True))
     return np.where(condition, yes, no)
 

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from typing import Any
 
+LEFT = ' style="text-align:left"'
+
 
 class Raw(str):
     """HTML that is put into a table as it is: a formula, a picture."""
@@ -32,6 +34,11 @@ def text(value: Any) -> str:
     return f"{value:.6g}" if isinstance(value, int | float) else escape(str(value))
 
 
+def lines(told: str) -> str:
+    """Return text of several lines as it stands in a terminal."""
+    return f'<pre style="font-family:monospace">{escape(told)}</pre>'
+
+
 def math_of(mathml: str, tail: str = "") -> Raw:
     """Return presentation MathML as an inline formula, with an operator and a number such as ``> 0`` behind it."""
     pieces = "".join(f"<mn>{piece}</mn>" if piece.isdigit() else f"<mo>{escape(piece)}</mo>" for piece in tail.split())
@@ -51,17 +58,22 @@ def quantity(value: float | None, unit: str) -> str:
 
 
 def table(rows: Iterable[Sequence[Any]], head: Sequence[str] = (), caption: Any = "") -> str:
-    """Return a table whose first column heads its rows.
+    """Return a table whose first column heads its rows; columns of words stand at the left, as notebooks would not.
 
-    >>> table([("m", 1200.0)], ("name", "value"), "a <trailer>")
-    '<table><caption>a &lt;trailer&gt;</caption><thead><tr><th scope="col">name</th><th scope="col">value</th></tr>\
-</thead><tbody><tr><th scope="row">m</th><td>1200</td></tr></tbody></table>'
+    >>> table([(1, 1200.0)], ("number", "value"), "a <trailer>")
+    '<table><caption>a &lt;trailer&gt;</caption><thead><tr><th scope="col">number</th><th scope="col">value</th></tr>\
+</thead><tbody><tr><th scope="row">1</th><td>1200</td></tr></tbody></table>'
     """
-    body = "".join(
-        f'<tr><th scope="row">{text(first)}</th>' + "".join(f"<td>{text(cell)}</td>" for cell in rest) + "</tr>"
-        for first, *rest in rows
-    )
-    top = "".join(f'<th scope="col">{text(name)}</th>' for name in head)
+    rows = list(rows)
+    sides = [LEFT if all(isinstance(x, str | None) for x in column) else "" for column in zip(*rows, strict=True)]
+    sides += [""] * (len(head) - len(sides))
+
+    def cells(row: Sequence[Any]) -> str:
+        first, *rest = (f"{side}>{text(value)}" for side, value in zip(sides, row, strict=False))
+        return f'<th scope="row"{first}</th>' + "".join(f"<td{cell}</td>" for cell in rest)
+
+    body = "".join(f"<tr>{cells(row)}</tr>" for row in rows)
+    top = "".join(f'<th scope="col"{side}>{text(name)}</th>' for side, name in zip(sides, head, strict=False))
     title = f"<caption>{text(caption)}</caption>" if caption else ""
     return f"<table>{title}{f'<thead><tr>{top}</tr></thead>' if head else ''}<tbody>{body}</tbody></table>"
 
@@ -70,5 +82,5 @@ class Rich:
     """A result that a notebook shows as it prints: its text, aligned as in a terminal."""
 
     def _repr_html_(self) -> str:
-        lines = str(self)
-        return f"<pre>{escape(lines)}</pre>" if "\n" in lines else f"<p>{escape(lines)}</p>"
+        told = str(self)
+        return lines(told) if "\n" in told else f"<p>{escape(told)}</p>"

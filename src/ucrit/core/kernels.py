@@ -1,4 +1,4 @@
-"""Compiled kernels: characteristic coefficients and stability conditions fused into straight-line scalar code.
+"""Compiled kernels: characteristic coefficients and stability conditions fused into scalar code for rows of a grid.
 
 One generated body serves the processor (numba) and the graphics processor (numba.cuda). Numba is imported when a
 kernel is made, not before; machine code is kept in the folder of derived facts.
@@ -9,9 +9,9 @@ from __future__ import annotations
 import hashlib
 import importlib
 import os
-import re
 import sys
 from collections.abc import Sequence
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from types import ModuleType
@@ -20,11 +20,9 @@ from typing import Any
 from .cache import folder
 from .compiled import Compiled
 from .errors import MissingExtraError, UcritError
+from .rows import NotAPolynomialError, Polynomial, Rows, conditions, polynomials
 
 ENGINES = ("auto", "numpy", "numba", "cuda")
-
-_INTEGER = re.compile(r"(?<![\w.])(\d+)(?![\w.])")
-_MATH = {"arctan2": "atan2", "arctan": "atan", "arcsin": "asin", "arccos": "acos", "abs": "fabs"}
 
 STABLE, OPEN = 1, 2
 """Codes that kernels write: stable for sure, and not sure; 0 is unstable for sure."""
@@ -35,40 +33,53 @@ def number_of_limits(degree: int) -> int:
     return degree + 1 if degree != 3 else 4
 
 
-def body(functions: Compiled, indent: str) -> str:
-    """Return lines that compute ``code`` from parameters ``v0, v1, ...`` and limits ``e0, e1, ...``."""
-    lines = functions.source.splitlines()[2:]
-    raw = functions.order + 1
-    zeros, degree = functions.structural_zeros, functions.order - functions.structural_zeros
-    steps = [_scalar(line.strip()) for line in lines[:-1]]
-    values = _scalar(lines[-1].strip().removeprefix("return "))
-    steps.append(f"{', '.join(f'q{k}' for k in range(raw))}, = {values}")
-    for k in range(degree + 1):
-        term = f" + {k + 1}.0*q{zeros + k + 1}" if functions.undamped and k < degree else ""
-        steps.append(f"p{k} = q{zeros + k}{term}")
-    steps.append(f"sign = -1.0 if p{degree} < 0.0 else 1.0")
-    steps += [f"a{k} = sign*p{k}" for k in range(degree + 1)]
-    steps += _routh(degree) if degree > 4 else _up_to_4(degree)
-    return "\n".join(indent + step for step in steps)
+@dataclass(frozen=True)
+class Body:
+    """Statements for each row of a grid, and for each of its points, at which the inner parameter is ``x``.
+
+    Those of a point tell in ``sure`` whether it is stable for sure, and in ``doubt`` whether that is not sure.
+    """
+
+    row: list[str]
+    point: list[str]
 
 
-def _scalar(line: str) -> str:
-    """Write a line for one number: the mathematics of scalars, and no integers that could be too large."""
-    line = re.sub(r"numpy\.(\w+)", lambda m: f"math.{_MATH.get(m[1], m[1])}", line)
-    return _INTEGER.sub(r"\1.0", line)
+def body(functions: Compiled, inner: int) -> Body:
+    """Return what judges from parameters ``v0, v1, ...`` and limits ``e0, e1, ...``."""
+    rows = Rows()
+    try:
+        return _judging(polynomials(functions, inner, rows), rows)
+    except NotAPolynomialError:
+        rows = Rows()
+        whole = _judging(polynomials(functions, None, rows), rows)
+        return Body([], [f"v{inner} = x", *whole.row, *whole.point])
 
 
-def _up_to_4(degree: int) -> list[str]:
-    """Conditions of Lienard and Chipart, in the order of `ucrit.numerics.rounded.slacks`."""
-    tests = [f"a{k}" for k in reversed(range(degree + 1))]
-    if degree == 3:
-        tests = ["a3", "a0", "a2", "a1*a2 - a0*a3"]
-    elif degree == 4:
-        tests = ["a4", "a0", "a1", "a3", "a1*(a2*a3 - a4*a1) - a0*(a3*a3)"]
-    named = [f"c{i} = {test}" for i, test in enumerate(tests)]
-    sure = " & ".join(f"(c{i} > e{i})" for i in range(len(tests)))
-    wrong = " | ".join(f"(c{i} < -e{i})" for i in range(len(tests)))
-    return [*named, f"sure = {sure}", f"wrong = {wrong}", "code = sure + 2*((not sure) & (not wrong))"]
+def _judging(a: list[Polynomial], rows: Rows) -> Body:
+    """Conditions as multiples of their limits, the least of which decides; rows in which they overflow stay open."""
+    lead = a[-1]
+    if len(a) > 5:
+        point = [f"sign = -1.0 if {rows.horner(lead)} < 0.0 else 1.0"]
+        return Body(
+            rows.steps, [*point, *(f"a{k} = sign*{rows.horner(p)}" for k, p in enumerate(a)), *_routh(len(a) - 1)]
+        )
+    changes, tests = any(lead[1:]), conditions(a, rows)
+    row, point = [*rows.steps, "least, total = math.inf, 0.0"], ["least = lowest"]
+    (point if changes else row).append(f"sign = -1.0 if {rows.horner(lead)} < 0.0 else 1.0")
+    for i, (polynomial, odd) in enumerate(tests):
+        row.append(f"scale = {'sign' if odd and not changes else '1.0'}/e{i}")
+        names: Polynomial = tuple(c and f"c{i}_{k}" for k, c in enumerate(polynomial))
+        row += [f"{name} = {c}*scale" for name, c in zip(names, polynomial, strict=True) if name]
+        row += [f"total += abs({name})" for name in names if name]
+        varies = any(names[1:]) or (odd and changes)
+        value = f"sign*{rows.horner(names)}" if odd and changes else rows.horner(names)
+        (point if varies else row).extend([f"c{i} = {value}", f"least = c{i} if c{i} < least else least"])
+    # a leading coefficient that may have the other sign turns the conditions round: nothing is sure then
+    doubt = "not abs(least) > limit"
+    doubt = f"({doubt}) | (not abs(c0) > limit)" if changes else doubt
+    row += ["lowest, limit = least, 1.0 if total < math.inf else math.inf"]
+    row += [] if changes else ["limit = limit if c0 > 1.0 else math.inf"]
+    return Body(row, [*point, "sure = least > limit", f"doubt = {doubt}"])
 
 
 def _routh(degree: int) -> list[str]:
@@ -91,37 +102,46 @@ def _routh(degree: int) -> list[str]:
             steps.append(f"{error} = {dy} + {grown} + (EPS*(abs(product) + abs({new})) + TINY)")
             row[j] = (new, error)
         upper, lower = lower, row
-    return [*steps, "code = sure + 2*((not sure) & (not wrong))"]
+    return [*steps, f"doubt = not (sure | (wrong & (a{degree} > e{degree})))"]
 
 
-_HEAD = "import math\n\nimport numpy\n\nEPS = 2.220446049250313e-16\nTINY = 1e-300\n\n\n"
+def source(functions: Compiled, outer: Sequence[int], inner: int, target: str) -> str:
+    """Return a function for rows of a grid: some parameters change from row to row, one along the row.
 
-
-def processor_source(functions: Compiled, outer: Sequence[int], inner: int) -> str:
-    """Return a function for rows of a grid: some parameters change from row to row, one along the row."""
-    degree = functions.order - functions.structural_zeros
+    Parameters
+    ----------
+    functions
+        The model's compiled functions.
+    outer, inner
+        Numbers of the parameters.
+    target
+        ``"numba"``: all rows one after the other, and how many points were left open is returned. ``"cuda"``: blocks
+        of threads share the rows in one direction of their grid, and the points of a row in the other.
+    """
+    degree, graphics = functions.order - functions.structural_zeros, target == "cuda"
     fixed = [k for k in range(len(functions.model.declaration.parameters)) if k not in (*outer, inner)]
-    lines = ["def kernel(fixed, limits, rows, outer, start, inner, out):", "    count = 0"]
+    made = body(functions, inner)
+    lines = ["def kernel(fixed, limits, rows, outer, start, inner, out):"]
+    lines += [] if graphics else ["    count = 0"]
     lines += [f"    v{k} = fixed[{k}]" for k in fixed]
     lines += [f"    e{k} = limits[{k}]" for k in range(number_of_limits(degree))]
-    lines += ["    for i in range(rows.size):", "        line = out[rows[i], start : start + inner.size]"]
+    lines += [f"    for i in range({'cuda.blockIdx.x, rows.size, cuda.gridDim.x' if graphics else 'rows.size'}):"]
+    lines += ["        line = out[rows[i], start : start + inner.size]"]
     lines += [f"        v{k} = outer[i, {column}]" for column, k in enumerate(outer)]
-    lines += ["        for j in range(inner.size):", f"            v{inner} = inner[j]"]
-    lines += [body(functions, " " * 12), "            line[j] = numpy.uint8(code)", "            count += code >> 1"]
-    return _HEAD + "\n".join([*lines, "    return count", ""])
-
-
-def graphics_source(functions: Compiled, outer: Sequence[int], inner: int) -> str:
-    """Return a kernel for the same grid in which each thread judges one point."""
-    degree = functions.order - functions.structural_zeros
-    fixed = [k for k in range(len(functions.model.declaration.parameters)) if k not in (*outer, inner)]
-    lines = ["def kernel(fixed, limits, outer, inner, out):", "    j, i = cuda.grid(2)"]
-    lines += ["    if i < outer.shape[0] and j < inner.size:"]
-    lines += [f"        v{k} = fixed[{k}]" for k in fixed]
-    lines += [f"        e{k} = limits[{k}]" for k in range(number_of_limits(degree))]
-    lines += [f"        v{k} = outer[i, {column}]" for column, k in enumerate(outer)]
-    lines += [f"        v{inner} = inner[j]", body(functions, " " * 8), "        out[i, j] = code"]
-    return "import math\n\nfrom numba import cuda\n\n" + _HEAD.split("import numpy\n\n")[1] + "\n".join([*lines, ""])
+    lines += [" " * 8 + step for step in made.row]
+    second = ("cuda.blockIdx.y*cuda.blockDim.x + cuda.threadIdx.x", "cuda.gridDim.y*cuda.blockDim.x")
+    points = f"for j in range({second[0]}, inner.size, {second[1]}):" if graphics else "for j in range(inner.size):"
+    point = [f"    {step}" for step in ["x = inner[j]", *made.point]]
+    if graphics:
+        loops = [points, *point, f"    line[j] = {OPEN} if doubt else {STABLE} if sure else 0"]
+    else:  # doubts are rare: rows that have any are gone through again
+        loops = ["doubts = 0", points, *point, "    line[j] = sure", "    doubts += doubt", "if doubts:"]
+        again = ["count += doubts", points, *point, "    if doubt:", f"        line[j] = {OPEN}"]
+        loops += [f"    {step}" for step in again]
+    lines += [" " * 8 + step for step in loops]
+    lines += [] if graphics else ["    return count"]
+    imports = "import math" + ("\n\nfrom numba import cuda" if graphics else "")
+    return "\n".join([imports, "\nEPS = 2.220446049250313e-16\nTINY = 1e-300\n\n", *lines, ""])
 
 
 def needed(engine: str) -> Any:
@@ -129,7 +149,7 @@ def needed(engine: str) -> Any:
     if engine not in ENGINES:
         from .errors import near_match
 
-        raise UcritError(f"there is no engine '{engine}'{near_match(engine, ENGINES)}")
+        raise UcritError(f"there is no engine '{engine}'{near_match(str(engine), ENGINES)}")
     try:
         numba = importlib.import_module("numba")
     except ImportError as error:
@@ -147,25 +167,30 @@ def needed(engine: str) -> Any:
 
 @cache
 def processor_kernel(functions: Compiled, outer: tuple[int, ...], inner: int) -> Any:
-    """Return the compiled function of `processor_source`; compiled before, it is loaded."""
+    """Return the compiled function of `source`; compiled before, it is loaded."""
     numba = needed("numba")
-    source = processor_source(functions, outer, inner)
-    path = _written(source)
+    text = source(functions, outer, inner, "numba")
+    path = _written(text)
     module = ModuleType(f"ucrit_{Path(path).stem}" if path else "ucrit_kernel")
     if path is not None:
         module.__file__ = path
         sys.modules[module.__name__] = module  # machine code that is loaded names the module it came from
-    exec(compile(source, path or "<generated kernel>", "exec"), module.__dict__)
-    options: dict[str, Any] = {"nogil": True, "error_model": "numpy", "cache": path is not None}
+    exec(compile(text, path or "<generated kernel>", "exec"), module.__dict__)
+    options: dict[str, Any] = {
+        "nogil": True,
+        "error_model": "numpy",
+        "cache": path is not None,
+        "fastmath": {"contract"},
+    }
     return numba.njit(**options)(module.__dict__["kernel"])
 
 
 @cache
 def graphics_kernel(functions: Compiled, outer: tuple[int, ...], inner: int) -> Any:
-    """Return the compiled kernel of `graphics_source`."""
+    """Return the compiled kernel of `source` for graphics processors."""
     cuda = needed("cuda")
     namespace: dict[str, Any] = {}
-    exec(compile(graphics_source(functions, outer, inner), "<generated kernel>", "exec"), namespace)
+    exec(compile(source(functions, outer, inner, "cuda"), "<generated kernel>", "exec"), namespace)
     return cuda.jit(namespace["kernel"])
 
 

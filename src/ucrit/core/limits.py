@@ -19,7 +19,8 @@ from .errors import UcritError, near_match
 from .model import Model
 
 if TYPE_CHECKING:
-    from .linear import CharacteristicPolynomial, LinearSystem
+    from .characteristic import CharacteristicPolynomial
+    from .linear import LinearSystem
 
 
 @dataclass(frozen=True)
@@ -37,7 +38,7 @@ class Escape:
     @property
     def count(self) -> int:
         """Number of these roots."""
-        return len(self.polynomial.coefficients) - 1
+        return self.polynomial.order
 
 
 def limit_polynomial(
@@ -141,14 +142,9 @@ def _leading(a: Any, index: int, sign: int, degree: Fraction) -> Any:
 
 def _primitive(polynomial: CharacteristicPolynomial, coefficients: list[Any]) -> CharacteristicPolynomial:
     """Return a polynomial with what its coefficients share divided out, its leading term positive."""
-    from .factor import common_divisor
+    from .characteristic import primitive
 
-    common = polynomial.ring.zero
-    for a in coefficients:
-        common = common_divisor(common, a)
-    if coefficients[-1].LC * common.LC < 0:
-        common = -common
-    return type(polynomial)(polynomial.ring, tuple(a.exquo(common) for a in coefficients), polynomial.functions)
+    return type(polynomial)(polynomial.ring, (primitive(coefficients),), polynomial.functions)
 
 
 def check_names(model: type[Model], names: Mapping[str, Any]) -> None:

@@ -123,7 +123,7 @@ class Model:
             ]
         )
 
-    def __init__(self, **values: Any) -> None:
+    def __init__(self, /, **values: Any) -> None:
         self._fill(values, {})
 
     def _fill(self, values: Mapping[str, Any], shared: Mapping[str, str]) -> None:
@@ -226,7 +226,7 @@ class Model:
             shaped.append(value)
         return tuple(shaped)
 
-    def with_(self, **changes: Any) -> Self:
+    def with_(self, /, **changes: Any) -> Self:
         """Return a copy with some parameters changed; misspelt names and impossible values are refused."""
         return self._copy(changes, {name: dim for name, dim in self._shared.items() if name not in changes})
 
@@ -257,9 +257,17 @@ class Model:
         from . import html
 
         declared = type(self).declaration.parameters.items()
-        rows = [(name, _short(self._values[name]), "" if p.unit == "1" else p.unit, p.meaning) for name, p in declared]
+        known = {t.name: str(t) for t in self.info.tolerances}
+        rows = []
+        for name, p in declared:
+            value = self._values[name]
+            shown = value if np.ndim(value) == 0 else _short(value)
+            rows.append(
+                [name, shown, "" if p.unit == "1" else p.unit, p.meaning, *([known.get(name, "")] * bool(known))]
+            )
         caption = f"{self.info.name or type(self).__name__} ({type(self).model_id()})"
-        return html.table(rows, ("parameter", "value", "unit", "meaning"), caption)
+        head = ("parameter", "value", "unit", "meaning", *(["tolerance"] * bool(known)))
+        return html.table(rows, head, caption)
 
 
 def _with_laws(cls: type[Model], laws: tuple[tuple[str, type[Part]], ...]) -> type[Model]:

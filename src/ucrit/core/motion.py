@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any, NamedTuple
@@ -10,9 +10,12 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from .cache import cached
-from .codegen import build
+from .codegen import build, build_for_points
 from .compiled import Arguments, Array, derive_facts
 from .model import Model
+
+SAME, MOST = 1e-13, 20
+"""Relative change below which Newton's method has found what is implicit, and steps that it may take."""
 
 
 class Slopes(NamedTuple):
@@ -43,11 +46,11 @@ class Motion:
 
     @cached_property
     def _function(self) -> Callable[..., tuple[Any, ...]]:
-        return build(self._facts["motion"], "motion")
+        return build_for_points(self._facts["motion"], "motion")
 
     @cached_property
     def _outputs(self) -> Callable[..., tuple[Any, ...]]:
-        return build(self._facts["outputs"], "outputs")
+        return build_for_points(self._facts["outputs"], "outputs")
 
     @cached_property
     def _basic(self) -> Callable[..., tuple[Any, ...]]:
@@ -61,10 +64,22 @@ class Motion:
 
     def highest(self, w: Array, u: Array, arguments: Arguments) -> Array:
         """Return the highest derivatives and algebraic unknowns, states along the first axis of ``w``."""
+        shape = np.broadcast_shapes(np.shape(w)[1:], np.shape(u)[1:], *(np.shape(a) for a in arguments))
+        z = self._solved(w, u, arguments, np.zeros((int(self._facts["size"]), *shape)))
+        for _ in range(MOST if self._facts["implicit"] else 0):
+            before, z = z, self._solved(w, u, arguments, z)
+            if np.all(np.abs(z - before) <= SAME * (1 + np.abs(z))) or not np.isfinite(z).all():
+                break
+        return z
+
+    def _solved(self, w: Array, u: Array, arguments: Arguments, z: Array) -> Array:
+        """Return the solution of ``M z = f``, both at the given ``z`` where they depend on it."""
         n = int(self._facts["size"])
         with np.errstate(all="ignore"):  # laws with cases compute them all, also where they do not hold
-            entries = np.broadcast_arrays(*self._function(w, u, arguments), np.zeros(np.shape(w)[1:]))[:-1]
-        flat = np.moveaxis(np.array(entries, dtype=float), 0, -1)
+            entries = _stacked(self._function(w, u, arguments, z), np.shape(w)[1:])
+        if entries.ndim == 1:  # one motion alone
+            return np.linalg.solve(entries[: n * n].reshape(n, n), entries[n * n :])
+        flat = np.moveaxis(entries, 0, -1)
         M = flat[..., : n * n].reshape(*flat.shape[:-1], n, n)
         z = np.linalg.solve(M, flat[..., n * n :, None])[..., 0]
         return np.asarray(np.moveaxis(z, -1, 0))
@@ -81,7 +96,7 @@ class Motion:
 
     @cached_property
     def _slope_functions(self) -> dict[str, Callable[..., tuple[Any, ...]]]:
-        return {name: build(facts["source"], name) for name, facts in self._slope_facts.items()}
+        return {name: build_for_points(facts["source"], name) for name, facts in self._slope_facts.items()}
 
     def slopes(self, w: Array, u: Array, arguments: Arguments) -> Slopes:
         """Return the exact linearisation at any state, for arrays of states, inputs and parameters.
@@ -97,8 +112,8 @@ class Motion:
         z = self.highest(w, u, arguments)
         lead = np.broadcast_shapes(w.shape[1:], u.shape[1:], *(np.shape(a) for a in arguments))
         n, m = len(self.labels), len(u)
-        residual = self._stacked("residual", (len(z), n + m + len(arguments)), lead, (w, z, u, arguments))
-        M = self._mass(w, u, arguments, lead)
+        residual = self._placed("residual", (len(z), n + m + len(arguments)), lead, (w, z, u, arguments))
+        M = self._mass(w, u, arguments, z, lead)
         dz = -np.linalg.solve(M, residual)
         rows = []
         for kind, i in self._facts["rates"]:
@@ -110,7 +125,7 @@ class Motion:
             rows.append(row)
         by_all = np.stack(rows, axis=-2)
         outputs = len(self.model.declaration.outputs)
-        direct = self._stacked("output", (outputs, n + len(z) + m + len(arguments)), lead, (w, z, u, arguments))
+        direct = self._placed("output", (outputs, n + len(z) + m + len(arguments)), lead, (w, z, u, arguments))
         Cw, Cz, rest = np.split(direct, [n, n + len(z)], axis=-1)
         by_output = np.concatenate([Cw, rest], axis=-1) + Cz @ dz
         (A, B, E), (C, D, F) = (np.split(whole, [n, n + m], axis=-1) for whole in (by_all, by_output))
@@ -123,13 +138,13 @@ class Motion:
         used |= {i for kind, i in self._facts["rates"] if kind == "w"}
         return tuple(j not in used for j in range(len(self.labels)))
 
-    def _mass(self, w: Array, u: Array, arguments: Arguments, lead: tuple[int, ...]) -> Array:
+    def _mass(self, w: Array, u: Array, arguments: Arguments, z: Array, lead: tuple[int, ...]) -> Array:
         n = int(self._facts["size"])
         with np.errstate(all="ignore"):
-            entries = self._function(w, u, arguments)[: n * n]
+            entries = self._function(w, u, arguments, z)[: n * n]
         return np.stack([np.broadcast_to(e, lead) for e in entries], axis=-1).reshape(*lead, n, n)
 
-    def _stacked(self, name: str, shape: tuple[int, int], lead: tuple[int, ...], groups: Any) -> Array:
+    def _placed(self, name: str, shape: tuple[int, int], lead: tuple[int, ...], groups: Any) -> Array:
         """Put slopes in their places of matrices that are zero elsewhere."""
         matrix = np.zeros((*lead, *shape))
         with np.errstate(all="ignore"):
@@ -150,12 +165,22 @@ class Motion:
     @cached_property
     def _event_facts(self) -> Any:
         if not hasattr(self.model, "events"):
-            return {"names": [], "ends": [], "ways": [], "places": []}
+            return {"names": [], "ends": [], "ways": [], "starts": [], "places": []}
         return cached(self.model, "motion-events", lambda: derive_facts("motion_event", self.model))
 
     @cached_property
     def _event_functions(self) -> tuple[Callable[..., tuple[Any, ...]], ...]:
         return tuple(build(self._event_facts[name], name) for name in ("values", "settings"))
+
+    @cached_property
+    def _switches(self) -> Callable[..., tuple[Any, ...]]:
+        facts = cached(self.model, "motion-switches", lambda: derive_facts("motion_switch", self.model))
+        return build(facts["values"], "values")
+
+    def switches(self, w: Array, u: Array, arguments: Arguments) -> Array:
+        """Return the values that choose between cases of a law, one a row: their sign changes are its kinks."""
+        with np.errstate(all="ignore"):
+            return _stacked(self._switches(w, u, arguments), np.shape(w)[1:])
 
     @property
     def event_names(self) -> tuple[str, ...]:
@@ -172,12 +197,17 @@ class Motion:
         """Direction in which each event's value crosses zero: 1 rising, -1 falling, 0 either."""
         return tuple(self._event_facts["ways"])
 
+    @property
+    def event_starts(self) -> tuple[bool, ...]:
+        """Whether each event also happens at the start, where its value is beyond zero already."""
+        return tuple(self._event_facts["starts"])
+
     def event_values(self, w: Array, u: Array, arguments: Arguments) -> Array:
         """Return the values of the events, one a row, which cross zero where they happen."""
         z = self.highest(w, u, arguments)
         with np.errstate(all="ignore"):
             values = self._event_functions[0](w, z, u, arguments)
-        return np.array(np.broadcast_arrays(*values, np.zeros(np.shape(w)[1:]))[:-1], dtype=float)
+        return _stacked(values, np.shape(w)[1:])
 
     def event_changes(self, which: int) -> bool:
         """Tell whether an event sets states or inputs."""
@@ -201,7 +231,14 @@ class Motion:
         z = self.highest(np.asarray(w, dtype=float), u, arguments)
         with np.errstate(all="ignore"):
             values = self._outputs(w, z, u, arguments)
-        return np.array(np.broadcast_arrays(*values, np.zeros(np.shape(w)[1:]))[:-1], dtype=float)
+        return _stacked(values, np.shape(w)[1:])
+
+
+def _stacked(values: Sequence[Any], lead: tuple[int, ...]) -> Array:
+    """Return values that broadcast with each other and a shape as one array, the values along its first axis."""
+    if not lead and not any(map(np.ndim, values)):
+        return np.array(values, dtype=float)  # one motion alone: some ten times as fast
+    return np.array(np.broadcast_arrays(*values, np.zeros(lead))[:-1], dtype=float)
 
 
 _motion: Any = cache(Motion)

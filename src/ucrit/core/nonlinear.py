@@ -13,17 +13,22 @@ from .trace import Traced
 
 @dataclass(frozen=True)
 class Explicit:
-    """Mass matrix and right-hand side for the highest derivatives and the algebraic unknowns."""
+    """Mass matrix and right-hand side for the highest derivatives and the algebraic unknowns.
+
+    ``implicit`` are algebraic unknowns that both depend on: ``M(z) z = f(z)`` is then a step of Newton's method.
+    """
 
     M: sp.Matrix
     f: sp.Matrix
+    implicit: tuple[Any, ...] = ()
 
 
-def solve_for_highest(traced: Traced) -> Explicit:
+def solve_for_highest(traced: Traced, *, iterated: bool = False) -> Explicit:
     """Split the residuals into the part with highest derivatives and the rest.
 
     An equation without highest derivatives (a constraint) is differentiated along the motion until it has some;
-    the motion then keeps the constraint it starts on.
+    the motion then keeps the constraint it starts on. Where it may be ``iterated``, algebraic unknowns (an equivalent
+    control) may enter as they like.
 
     Raises
     ------
@@ -45,9 +50,13 @@ def solve_for_highest(traced: Traced) -> Explicit:
             residual = traced.time_derivative(residual)
         residuals[i] = residual
     M = sp.Matrix(len(z), len(z), lambda i, j: sp.diff(residuals[i], z[j]))
-    if M.free_symbols & names:
+    algebraic = [chain[0] for chain in traced.q if len(chain) == 1]
+    implicit = tuple(symbol for symbol in algebraic if iterated and M.has(symbol))
+    if M.free_symbols & (names - set(implicit)):
         raise ModelError(f"{traced.model.model_id()}: the equations are not linear in the highest derivatives")
     rest = dict.fromkeys(z, sp.S.Zero)
+    if implicit:
+        return Explicit(M, M * sp.Matrix(z) - sp.Matrix(residuals), implicit)
     return Explicit(M, sp.Matrix([-r.xreplace(rest) for r in residuals]))
 
 

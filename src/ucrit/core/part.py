@@ -73,6 +73,18 @@ class Part:
     def __repr__(self) -> str:
         return f"{type(self).__name__}({', '.join(f'{name}={value}' for name, value in self.__dict__.items())})"
 
+    def _repr_html_(self) -> str:
+        from . import html
+
+        rows = [
+            (name, self.__dict__[name], "" if p.unit == "1" else p.unit, p.meaning)
+            for name, p in self.parameters.items()
+        ]
+        caption = f"{self.title()} ({self.part_id()})"
+        table = html.table(rows, ("parameter", "value", "unit", "meaning"), caption)
+        count = len(self.constants)
+        return table + (f"<p>and {count} constants, in .constants</p>" if count else "")
+
     @classmethod
     def part_id(cls) -> str:
         """Name of the law as users type it: that of its file in the catalogue, the class's name elsewhere."""

@@ -53,9 +53,24 @@ def _gradient(value: Any, known: Mapping[Any, Mapping[int, Any]]) -> dict[int, A
         slope = value.diff(symbol).replace(sp.DiracDelta, lambda *_: sp.S.Zero)
         if slope != 0:
             for j, inner in known[symbol].items():
-                terms.setdefault(j, []).append(slope * inner)
+                terms.setdefault(j, []).append(_times(slope, inner))
     sums = {j: sp.Add(*each) for j, each in terms.items()}
     return {j: total for j, total in sums.items() if total != 0}
+
+
+def _times(slope: Any, inner: Any) -> Any:
+    """Multiply a slope by that of what is inside, branch by branch: one that does not count may have no slope."""
+    if inner.is_number or not slope.has(sp.Piecewise):
+        return slope * inner
+    if slope.is_Add:
+        return sp.Add(*(_times(term, inner) for term in slope.args))
+    if slope.is_Mul:
+        within = next((f for f in slope.args if f.is_Piecewise or (f.is_Add and f.has(sp.Piecewise))), None)
+        if within is not None:
+            return sp.Mul(*(_times(f, inner) if f is within else f for f in slope.args))
+    if slope.is_Piecewise:
+        return sp.Piecewise(*((_times(value, inner), holds) for value, holds in slope.args), evaluate=False)
+    return slope * inner
 
 
 def _named(gradient: dict[int, Any], steps: list[Step], names: Iterator[Any]) -> dict[int, Any]:

@@ -43,6 +43,15 @@ class Tolerance:
     low: float = -math.inf
     high: float = math.inf
 
+    def __str__(self) -> str:
+        parts = [f"sd {self.sd:.6g}"] if self.sd else []
+        ends = [math.isfinite(self.low), math.isfinite(self.high)]
+        if all(ends):
+            parts.append(f"from {self.low:.6g} to {self.high:.6g}")
+        elif any(ends):
+            parts.append(f"at least {self.low:.6g}" if ends[0] else f"at most {self.high:.6g}")
+        return ", ".join(parts)
+
     def entry(self, value: float) -> str:
         """Return the parameter's entry in a vehicle file."""
         parts = [f"value = {value!r}"]
@@ -73,6 +82,23 @@ class Tolerances:
     def of(self, name: str) -> Tolerance | None:
         """Return the tolerance of a parameter, ``None`` where it has none."""
         return next((t for t in self.entries if t.name == name), None)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return ``tolerances`` and ``correlations`` as plain data, without what is not given."""
+        given = {t.name: {"sd": t.sd or None, "min": t.low, "max": t.high} for t in self.entries}
+        return {
+            "tolerances": {
+                name: {k: v for k, v in ends.items() if v is not None and math.isfinite(v)}
+                for name, ends in given.items()
+            },
+            "correlations": [list(pair) for pair in self.correlations],
+        }
+
+    def around(self, values: Mapping[str, Any]) -> Tolerances:
+        """Return the tolerances whose range holds the parameter's value, which may have been changed since."""
+        entries = tuple(t for t in self.entries if t.low <= values[t.name] <= t.high)
+        names = {t.name for t in entries}
+        return Tolerances(entries, tuple(c for c in self.correlations if {c[0], c[1]} <= names))
 
     def groups(self) -> list[tuple[str, ...]]:
         """Return the parameters in groups that are independent of one another."""

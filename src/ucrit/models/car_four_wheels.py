@@ -3,18 +3,22 @@
 Wheels are front left, front right, rear left, rear right: fl, fr, rl, rr. Vertical loads follow the accelerations of
 the centre of mass with a lag T, as a body on springs does, and are in the end those of statics; the front axle takes
 the share zeta of the moment in roll. A wheel that has lifted carries nothing, and the others then carry no more than
-they did: results are good up to the first lift. The model ends at standstill, where slips have no value.
+they did: results are good up to the first lift. A motion ends where a whole side has lifted, and before standstill,
+where slips have no value.
 """
 
 import math
 from types import MappingProxyType
 
-from ..core import Drawing, Model, cos, input, output, param, sin, slot, speed, sqrt, state
+from ..core import Drawing, Model, cos, event, input, output, param, sin, slot, speed, sqrt, state
 from ..parts.shapes import car
 from ..parts.tires import longitudinal_slip, slip_angle
 from ..parts.tires.linear import Linear
 
 WHEELS = ("fl", "fr", "rl", "rr")
+PLACES = ("front left", "front right", "rear left", "rear right")
+LOCKED = 0.05
+"""Spin of a wheel, as a share of that of one that rolls freely, below which it is called locked."""
 LEAST = 1e-6
 """Load of a wheel that has lifted, as a share of its load at rest, so that tire laws keep a value."""
 
@@ -155,6 +159,22 @@ class CarFourWheels(Model):
             "alpha_r": slip_angle(x.v_y - self.b * x.r, x.v_x) - u.delta_r,
             "load_transfer": (loads[0] - loads[1] + loads[2] - loads[3]) / (self.m * self.g),
             **dict(zip((f"F_{wheel}" for wheel in WHEELS), loads, strict=True)),
+        }
+
+    def events(self, x, u):
+        loads, slips = self.loads(x), self.slips(x, u)
+        left, right = loads[0] + loads[2], loads[1] + loads[3]
+        locks = {
+            f"locks its {place} wheel": event(kappa + 1 - LOCKED, when="falling")
+            for place, (_, kappa) in zip(PLACES, slips, strict=True)
+        }
+        lifts = {f"lifts its {p} wheel": event(load, when="falling") for p, load in zip(PLACES, loads, strict=True)}
+        return {
+            **locks,
+            **lifts,
+            "rolls over onto its right side": event(left, when="falling", ends=True),
+            "rolls over onto its left side": event(right, when="falling", ends=True),
+            "has slowed to a tenth of its speed": event(x.v_x - self.U / 10, when="falling", ends=True),
         }
 
     def drawing(self, x, u):

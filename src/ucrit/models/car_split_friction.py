@@ -4,7 +4,7 @@ The friction of the road under the wheels of either side is an input, so that it
 slips are as for all tires: below 0 where a wheel is braked, -1 where it is locked.
 """
 
-from ..core import event, input, output, slot
+from ..core import input, output, slot
 from ..parts.tires.brush import Brush
 from .car_four_wheels import WHEELS, CarFourWheels
 
@@ -39,6 +39,3 @@ class CarSplitFriction(CarFourWheels):
     def outputs(self, x, dx, u):
         slips = {f"kappa_{wheel}": kappa for wheel, (_, kappa) in zip(WHEELS, self.slips(x, u), strict=True)}
         return {**super().outputs(x, dx, u), **slips}
-
-    def events(self, x):
-        return {"has slowed to a tenth of its speed": event(x.v_x - self.U / 10, when="falling", ends=True)}

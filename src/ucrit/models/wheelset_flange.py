@@ -4,7 +4,7 @@ Each wheel carries the load N, and friction bounds its creep force. Beyond the c
 touches its rail, which gives way like a spring.
 """
 
-from ..core import maximum, param
+from ..core import event, maximum, param
 from ..parts.creep import contact_velocities, creep_force, creepage, saturated_share
 from .wheelset import Wheelset
 
@@ -31,3 +31,9 @@ class WheelsetFlange(Wheelset):
     def forces(self, x, dx):
         points = contact_velocities(self.V, x.y, x.psi, dx.y, dx.psi, self.d, self.r_0, self.lambda_)
         return tuple(pair for point in points for pair in zip(self.wheel_forces(point), point, strict=True))
+
+    def events(self, x):
+        return {
+            "touches a rail with its left flange": event(x.y - self.clearance, when="rising"),
+            "touches a rail with its right flange": event(x.y + self.clearance, when="falling"),
+        }

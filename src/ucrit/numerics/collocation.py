@@ -42,10 +42,14 @@ CONVERGED = 1e-10
 
 
 class Field(NamedTuple):
-    """Right-hand side: ``rates(x, p)`` of shape (n, P) for states (n, P); ``slopes(x, p)`` (P, n, n) and (P, n)."""
+    """Right-hand side: ``rates(x, p)`` of shape (n, P) for states (n, P); ``slopes(x, p)`` (P, n, n) and (P, n).
+
+    Where laws have kinks, ``switches(x, p)`` are values, one a row, that change sign there.
+    """
 
     rates: Callable[[Array, float], Array]
     slopes: Callable[[Array, float], tuple[Array, Array]]
+    switches: Callable[[Array, float], Array] | None = None
 
 
 class Corrected(NamedTuple):

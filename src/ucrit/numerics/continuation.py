@@ -12,13 +12,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
-import numpy.typing as npt
 
-Array = npt.NDArray[Any]
-Function = Callable[[Array], tuple[Array, Array]]
+from .curve_points import Array, Function, NoConvergenceError, Point, bordered, solve, tangent_at
+
+__all__ = ["Crossing", "Curve", "NoConvergenceError", "Point", "follow", "turning"]
 
 TURN = 0.25
 """Largest angle [rad] between the tangents at both ends of a step, in scaled unknowns."""
@@ -29,21 +29,8 @@ NEAR = 0.25
 BEND = 0.35, 0.01
 """Chord and mean tangent of a step may differ by this share of the tangents' difference, and this much."""
 
-CONVERGED, ROUNDING = 1e-11, 1e-6
-"""Scaled correction after which Newton's method has converged, or has if it then gets no smaller."""
-
-NEWTON = 12
-
 BRANCH = 1e-6
 """Length of a step in scaled unknowns below which two curves are taken to cross."""
-
-
-class Point(NamedTuple):
-    """A point of a curve: unknowns (n + 1,), unit tangent in scaled unknowns (scaled back), Jacobian (n, n + 1)."""
-
-    y: Array
-    tangent: Array
-    jacobian: Array
 
 
 Test = Callable[[Point], float]
@@ -81,73 +68,9 @@ class Curve:
     reason: str = ""
 
 
-class NoConvergenceError(ArithmeticError):
-    """Newton's method found no point of the curve near the guess; the text says what happened."""
-
-
 def turning(index: int) -> Test:
     """Return the test that changes sign where an unknown has an extremum along the curve: a fold."""
     return lambda point: float(point.tangent[index])
-
-
-def solve(function: Function, guess: Array, tangent: Array, scale: Array) -> tuple[Array, Array, float]:
-    """Return the solution in the plane through the guess at right angles to the tangent (both scaled).
-
-    Returns
-    -------
-    tuple
-        Unknowns, Jacobian there, and the length of the first correction in scaled unknowns.
-
-    Raises
-    ------
-    NoConvergenceError
-        If there is none nearby.
-    """
-    y, last, first = guess, math.inf, 0.0
-    for iteration in range(NEWTON):
-        value, jacobian = function(y)
-        if not (np.isfinite(value).all() and np.isfinite(jacobian).all()):
-            raise NoConvergenceError("the equations have no value there")
-        scaled = jacobian * scale
-        size = np.linalg.norm(scaled, axis=1, keepdims=True)
-        size = np.where(size > 0, size, 1)
-        matrix = np.vstack([scaled / size, tangent])
-        right = np.append(value / size[:, 0], tangent @ ((y - guess) / scale))
-        try:
-            step = np.linalg.solve(matrix, -right)
-        except np.linalg.LinAlgError:
-            raise NoConvergenceError("the equations are singular there: solutions are no single curve") from None
-        length = float(np.linalg.norm(step))
-        first = first if iteration else length
-        if iteration and length > 0.7 * last:
-            if last < ROUNDING:
-                return y, jacobian, first
-            raise NoConvergenceError("Newton's method does not converge")
-        y, last = y + scale * step, length
-        if length <= CONVERGED * (1 + float(np.abs(y / scale).max())):
-            return y, function(y)[1], first
-    raise NoConvergenceError("Newton's method does not converge")
-
-
-def _bordered(scaled: Array, row: Array) -> Array:
-    size = np.linalg.norm(scaled, axis=1, keepdims=True)
-    return np.vstack([scaled / np.where(size > 0, size, 1), row])
-
-
-def tangent_at(jacobian: Array, along: Array, scale: Array) -> Array:
-    """Return the scaled unit tangent whose direction is nearest to ``along`` (scaled).
-
-    Raises
-    ------
-    NoConvergenceError
-        If there is none: the Jacobian has no full rank.
-    """
-    border = _bordered(jacobian * scale, along)
-    try:
-        found = np.linalg.solve(border, np.append(np.zeros(len(jacobian)), 1.0))
-    except np.linalg.LinAlgError:
-        raise NoConvergenceError("the equations are singular there: solutions are no single curve") from None
-    return np.asarray(found / np.linalg.norm(found))
 
 
 def follow(
@@ -258,7 +181,7 @@ class _Walk:
 
     def orientation(self, point: Point) -> float:
         """Sign of the bordered Jacobian's determinant."""
-        sign, _ = np.linalg.slogdet(_bordered(point.jacobian * self.scale, point.tangent / self.scale))
+        sign, _ = np.linalg.slogdet(bordered(point.jacobian * self.scale, point.tangent / self.scale))
         return float(sign)
 
     def curve(self, end: str, reason: str = "") -> Curve:

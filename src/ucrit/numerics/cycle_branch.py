@@ -17,6 +17,7 @@ from . import collocation as co
 from . import orbit as orbits
 from .collocation import Corrected, Field
 from .cycle_points import Branch, Hopf, Point
+from .kinks import kinks, settle
 from .orbit import Metric, Orbit, Tangent, norm
 
 Array = npt.NDArray[Any]
@@ -130,7 +131,7 @@ def _first(field: Field, hopf: Hopf, span: float) -> Point | None:
     for scale in size * np.array([1.0, 0.1, 0.01, 10.0]):
         away = Tangent(scale * wave, 0.0, 0.0)
         guess = orbits.moved(rest, away, 1.0)
-        found = co.correct(field, guess, away, _metric(guess, span))
+        found = settle(field, guess, away, _metric(guess, span))
         if found is not None and abs(found.orbit.period / rest.period - 1) < 0.2:
             return _point(field, found, _metric(found.orbit, span))
     return None
@@ -159,14 +160,13 @@ def _refined(field: Field, point: Point, tolerance: float, number: int) -> Point
     for _ in range(4):
         count = len(point.orbit.widths)
         wanted = count * (point.error / tolerance) ** 0.2 if point.error > 0 else count
-        more = int(min(max(1.2 * wanted, count), 2 * count, MOST_INTERVALS))
+        more = int(min(max(1.2 * wanted, 0.7 * count), 2 * count, MOST_INTERVALS))
         if point.error <= tolerance and number % 4:
             return point
-        mesh = orbits.adapted_mesh(point.orbit, point.metric.states, max(more, INTERVALS))
-        changed = point.orbit.on(mesh)
-        along = replace(point.orbit, values=point.tangent.values).on(mesh).values
-        tangent = Tangent(along, point.tangent.period, point.tangent.parameter)
-        found = co.correct(field, changed, tangent, point.metric)
+        at_kinks = kinks(field, point.orbit)
+        mesh = orbits.adapted_mesh(point.orbit, point.metric.states, max(more, INTERVALS), at_kinks)
+        tangent = orbits.carried(point.tangent, point.orbit, mesh)
+        found = settle(field, point.orbit.on(mesh), tangent, point.metric)
         if found is None:
             return point
         better = _point(field, found, point.metric, point.fold)
@@ -182,15 +182,17 @@ def _advance(field: Field, here: Point, step: float) -> tuple[Corrected | None, 
     widths, metric = here.orbit.widths, here.metric
     ahead = orbits.scaled(here.tangent, 1 / norm(here.tangent, widths, metric))
     while step > SMALLEST_STEP:
-        found = co.correct(field, orbits.moved(here.orbit, ahead, step), ahead, metric)
+        found = settle(field, orbits.moved(here.orbit, ahead, step), ahead, metric)
         least = TURN if step > CORNER else 0.0
-        if found is not None and _cosine(found.tangent, ahead, widths, metric) > least:
+        if found is not None and _cosine(found, here.orbit, ahead, metric) > least:
             return found, step, found.steps
         step /= 2
     return None, step, 0
 
 
-def _cosine(a: Tangent, b: Tangent, widths: Array, metric: Metric) -> float:
+def _cosine(found: Corrected, orbit: Orbit, ahead: Tangent, metric: Metric) -> float:
+    """Return the cosine between the branch's direction at a solution and one given on an orbit's mesh."""
+    a, b, widths = found.tangent, orbits.carried(ahead, orbit, found.orbit.mesh), found.orbit.widths
     product = orbits.inner(a.values, b.values, widths, metric)
     product += a.period * b.period / metric.period**2 + a.parameter * b.parameter / metric.parameter**2
     return product / norm(a, widths, metric) / norm(b, widths, metric)
@@ -200,7 +202,7 @@ def between(field: Field, a: Point, b: Point, share: float) -> Corrected | None:
     """Return the solution at a share of the way from one point of a branch to its neighbour."""
     other = b.orbit.on(a.orbit.mesh)
     chord = Tangent(other.values - a.orbit.values, other.period - a.orbit.period, other.parameter - a.orbit.parameter)
-    return co.correct(field, orbits.moved(a.orbit, chord, share), chord, a.metric)
+    return settle(field, orbits.moved(a.orbit, chord, share), chord, a.metric)
 
 
 def locate(field: Field, a: Point, b: Point, miss: Callable[[Corrected], float]) -> Point | None:
@@ -237,7 +239,7 @@ def at_parameter(field: Field, a: Point, b: Point, value: float) -> Point | None
         return None
     exact = replace(near.orbit, parameter=value)
     only = Tangent(np.zeros_like(exact.values), 0.0, 1.0)
-    found = co.correct(field, exact, only, near.metric)
+    found = settle(field, exact, only, near.metric)
     if found is None or abs(found.orbit.period / exact.period - 1) > 1e-6:
         return replace(near, fold=False)
     return replace(_point(field, found, near.metric), tangent=near.tangent)

@@ -8,11 +8,13 @@ are not rounded outward: they hold to a few rounding units.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+
+from .rounded import conditions
 
 Array = npt.NDArray[np.float64]
 
@@ -21,6 +23,14 @@ def _product(a: Array, b: Array, c: Array, d: Array) -> tuple[Array, Array]:
     """Range of the products of numbers in [a, b] and [c, d]."""
     ac, ad, bc, bd = a * c, a * d, b * c, b * d
     return np.minimum(np.minimum(ac, ad), np.minimum(bc, bd)), np.maximum(np.maximum(ac, ad), np.maximum(bc, bd))
+
+
+def _scaled(ends: Any, factor: Any) -> tuple[Array, Array]:
+    """Range of the products of numbers between two ends and a factor."""
+    low, high = ends[0] * factor, ends[1] * factor
+    if np.ndim(factor) == 0:
+        return (high, low) if factor < 0 else (low, high)
+    return np.minimum(low, high), np.maximum(low, high)
 
 
 class Enclosure:
@@ -83,8 +93,8 @@ class Enclosure:
 
     def __mul__(self, other: Any) -> Enclosure:
         if not isinstance(other, Enclosure):
-            low, high = np.sort([self.lower * other, self.upper * other], axis=0)
-            return Enclosure(self.centre * other, low, high, np.sort(self.slopes * other, axis=0), self.half)
+            slopes = np.stack(_scaled(self.slopes, other))
+            return Enclosure(self.centre * other, *_scaled((self.lower, self.upper), other), slopes, self.half)
         ends = _product(self.lower, self.upper, other.lower, other.upper)
         one = _product(self.slopes[0], self.slopes[1], other.lower, other.upper)
         two = _product(other.slopes[0], other.slopes[1], self.lower, self.upper)
@@ -114,6 +124,11 @@ class Enclosure:
         for _ in range(exponent):
             power = power * self
         return power  # type: ignore[no-any-return]
+
+    def __abs__(self) -> Enclosure:
+        nearest = np.where(self.lower > 0, self.lower, np.where(self.upper < 0, -self.upper, 0.0))
+        slope = np.where(self.lower >= 0, 1.0, -1.0), np.where(self.upper <= 0, -1.0, 1.0)
+        return self._through(np.abs(self.centre), nearest, np.maximum(-self.lower, self.upper), *slope)
 
     def _through(self, centre: Array, lower: Array, upper: Array, least: Array, most: Array) -> Enclosure:
         """Return a function of this quantity from its range and that of its derivative."""
@@ -164,3 +179,29 @@ class EnclosureFunctions:
             return np.sqrt(x)
         lower, upper = np.sqrt(x.lower), np.sqrt(x.upper)
         return x._through(np.sqrt(x.centre), lower, upper, 0.5 / upper, 0.5 / lower)
+
+
+def excluded(a: Sequence[Any], count: int) -> npt.NDArray[np.bool_]:
+    """Tell in which boxes all points are stable, or none is, from enclosures of the coefficients."""
+    if len(a) == 1:
+        return np.ones(count, dtype=bool)
+    lower, upper = _range(a[-1], count)
+    sign = np.where(upper < 0, -1.0, 1.0)
+    fixed = (lower > 0) | (upper < 0)
+    a = [c * sign for c in a]
+    stable, unstable = np.array(fixed), np.zeros(count, dtype=bool)
+    before = np.array(fixed)
+    for c in conditions(a):
+        lower, upper = _range(c, count)
+        # up to degree 4 each condition is needed by itself; in Routh's column only as long as those before hold
+        unstable |= (upper <= 0) & fixed & (before if len(a) > 5 else True)
+        before &= lower > 0
+        stable &= lower > 0
+    for c in a:
+        unstable |= (_range(c, count)[1] <= 0) & fixed
+    return np.asarray(stable | unstable)
+
+
+def _range(c: Any, count: int) -> tuple[Array, Array]:
+    ends = (c.lower, c.upper) if isinstance(c, Enclosure) else (c, c)
+    return np.broadcast_to(ends[0], (count,)), np.broadcast_to(ends[1], (count,))

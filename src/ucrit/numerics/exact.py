@@ -110,8 +110,10 @@ def divmod_(p: Sequence[Any], q: Sequence[Any]) -> tuple[list[Fraction], list[Fr
 def gcd(p: Sequence[Any], q: Sequence[Any]) -> list[int]:
     """The greatest common divisor: a primitive integer polynomial with positive leading coefficient.
 
-    Primitive remainder sequence (Knuth, The Art of Computer Programming 2, sec. 4.6.1, algorithm E), after a
-    test modulo a prime that recognises coprime polynomials. ``gcd([], []) == []``.
+    By the greatest common divisor of their values at one large integer (Char, Geddes and Gonnet, J. Symbolic
+    Computation 7, 1989, pp. 31-48); where that finds none by the primitive remainder sequence (Knuth, The Art of
+    Computer Programming 2, sec. 4.6.1, algorithm E). A test modulo a prime recognises coprime polynomials first.
+    ``gcd([], []) == []``.
 
     Examples
     --------
@@ -121,6 +123,8 @@ def gcd(p: Sequence[Any], q: Sequence[Any]) -> list[int]:
     f, g = sorted((primitive(p), primitive(q)), key=len, reverse=True)
     if g and _coprime_modulo_prime(f, g):
         return [1]
+    if len(g) > 1 and (common := _by_values(f, g)):
+        return common
     while g:
         f, g = g, primitive(_pseudo_remainder(f, g))
     return [-x for x in f] if f and f[-1] < 0 else f
@@ -223,6 +227,34 @@ def _exact_quotient(f: list[int], g: list[int]) -> list[int]:
         for j in range(degree):
             rest[k + j] -= factor * g[j]
     return quotient
+
+
+def _by_values(f: list[int], g: list[int]) -> list[int]:
+    """The greatest common divisor of primitive `f` and `g`, or nothing: its value divides those of both at any place.
+
+    At a place beyond twice the smaller of the largest coefficients its coefficients are the digits of the values'
+    divisor, unless other factors of the values happen to have a divisor too, which the division shows.
+    """
+    place = 2 * min(max(map(abs, f)), max(map(abs, g))) + 29
+    for _ in range(3):
+        rest, digits = integer_gcd(_value(f, place), _value(g, place)), list[int]()
+        while rest:
+            rest, digit = divmod(rest, place)
+            over = 2 * digit > place
+            digits.append(digit - place * over)
+            rest += over
+        found = primitive(digits)
+        if found and not any(_pseudo_remainder(f, found)) and not any(_pseudo_remainder(g, found)):
+            return [-x for x in found] if found[-1] < 0 else found
+        place = 3 * place + 1
+    return []
+
+
+def _value(p: list[int], place: int) -> int:
+    total = 0
+    for x in reversed(p):
+        total = total * place + x
+    return total
 
 
 def _coprime_modulo_prime(f: list[int], g: list[int]) -> bool:

@@ -135,6 +135,11 @@ def scaled(tangent: Tangent, factor: float) -> Tangent:
     return Tangent(tangent.values * factor, tangent.period * factor, tangent.parameter * factor)
 
 
+def carried(tangent: Tangent, orbit: Orbit, mesh: Array) -> Tangent:
+    """Return a direction that is given on an orbit's mesh on another one."""
+    return tangent._replace(values=replace(orbit, values=tangent.values).on(mesh).values)
+
+
 def moved(orbit: Orbit, tangent: Tangent, step: float) -> Orbit:
     """Return the orbit moved along a direction on the same mesh."""
     return replace(
@@ -145,20 +150,28 @@ def moved(orbit: Orbit, tangent: Tangent, step: float) -> Orbit:
     )
 
 
-def adapted_mesh(orbit: Orbit, sizes: Array, count: int) -> Array:
-    """Return a mesh of ``count`` intervals that spreads the error evenly.
+def adapted_mesh(orbit: Orbit, sizes: Array, count: int, kinks: Array | None = None) -> Array:
+    """Return a mesh of about ``count`` intervals that spreads the error evenly, and has the kinks as points.
 
     The fifth derivative is taken from the fourth ones of neighbouring intervals (R. D. Russell and J. Christiansen,
-    SIAM Journal on Numerical Analysis 15 (1978)).
+    SIAM Journal on Numerical Analysis 15 (1978)), but not across a kink.
     """
-    h = orbit.widths
+    h, fixed = orbit.widths, np.empty(0) if kinks is None else kinks
     fourth = np.einsum("k,ika->ia", HIGHEST, orbit.values) / h[:, None] ** DEGREE / sizes
     jump = (np.roll(fourth, -1, axis=0) - fourth) / (0.5 * (h + np.roll(h, -1)))[:, None]
-    size = np.abs(jump).max(axis=1)
-    monitor = (0.5 * (size + np.roll(size, 1))) ** (1 / (DEGREE + 1))
+    ahead, smooth = np.abs(jump).max(axis=1), ~np.isin(orbit.mesh[1:], fixed)
+    sides = np.stack([ahead, np.roll(ahead, 1)]), np.stack([smooth, np.roll(smooth, 1)])
+    size = np.sum(sides[0], axis=0, where=sides[1]) / np.maximum(sides[1].sum(axis=0), 1)
+    monitor = size ** (1 / (DEGREE + 1))
     monitor = np.maximum(monitor, 0.1 * float(np.sum(monitor * h))) + 1e-12
     total = np.concatenate([[0.0], np.cumsum(monitor * h)])
-    return np.asarray(np.interp(np.linspace(0, total[-1], count + 1), total, orbit.mesh))
+    ends = np.interp([0.0, *fixed, 1.0], orbit.mesh, total)
+    counts = np.maximum(np.rint(count * np.diff(ends) / total[-1]), 1).astype(int)
+    parts = zip(ends, ends[1:], counts, strict=False)
+    wanted = np.concatenate([np.linspace(a, b, n, endpoint=False) for a, b, n in parts])
+    mesh = np.append(np.interp(wanted, total, orbit.mesh), 1.0)
+    mesh[np.cumsum(counts)[:-1]] = fixed
+    return mesh
 
 
 def multipliers(monodromy: Array) -> tuple[Array, float]:

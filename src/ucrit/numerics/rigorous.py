@@ -194,6 +194,15 @@ class Proved:
             power = power * self
         return power if exponent >= 0 else 1 / power
 
+    def __abs__(self) -> Proved:
+        def size(a: Pair) -> Pair:
+            nearest = np.where(a[0] > 0, a[0], np.where(a[1] < 0, -a[1], 0.0))
+            return nearest, np.maximum(-a[0], a[1])
+
+        low, high = self.ends
+        slope = np.where(low >= 0, 1.0, -1.0), np.where(high <= 0, -1.0, 1.0)
+        return self._through(size(self.ends), size(self.centre), slope)
+
     def _root(self) -> Proved:
         def root(a: Pair) -> Pair:
             return _out(np.sqrt(a[0]), np.sqrt(a[1]))

@@ -49,12 +49,15 @@ def judged(
             sign = np.where(a[-1] < 0, -1.0, 1.0)
             a = [x * sign for x in a]
         error = [x + UNDERFLOW for x in error]
+        signed = np.asarray(a[-1] > error[-1])  # else conditions may have been turned round wrongly
         if len(a) > 5:
             sure, possible = _judged_by_routh(a, error)
         else:
             tests = sorted(zip(conditions(a), slacks(size, error), strict=True), key=lambda pair: np.size(pair[0]))
             sure = reduce(np.logical_and, [x > slack for x, slack in tests])
             possible = reduce(np.logical_and, [~(x < -slack) for x, slack in tests])
+    sure = sure & signed if not signed.all() else sure
+    possible = possible | ~signed if not signed.all() else possible
     return np.broadcast_to(sure, shape), np.broadcast_to(possible & ~sure, shape)
 
 

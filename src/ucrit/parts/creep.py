@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..core.functions import cos, maximum, sin, sqrt, where
+from ..core.functions import cos, length, maximum, sin, where
 
 
 def contact_velocities(V: Any, y: Any, psi: Any, dy: Any, dpsi: Any, d: Any, r_0: Any, conicity: Any) -> Any:
@@ -50,8 +50,5 @@ def saturated_share(f_x: Any, f_y: Any, creepages: tuple[Any, Any], limit: Any) 
     P. J. Vermeulen and K. L. Johnson, Journal of Applied Mechanics 31 (1964), for a contact that is not spinning.
     """
     along, across = creepages
-    squared = ((f_x * along) ** 2 + (f_y * across) ** 2) / limit**2
-    moving = where(squared > 0, squared, 1)  # the square root has no slope at rest
-    demand = sqrt(moving)
-    share = where(demand < 3, 1 - demand / 3 + moving / 27, 1 / maximum(demand, 3))
-    return where(squared > 0, share, 1)
+    demand = length(f_x * along / limit, f_y * across / limit)
+    return where(demand < 3, 1 - demand / 3 + demand**2 / 27, 1 / maximum(demand, 3))

@@ -14,6 +14,7 @@ from .damping import plot_damping
 from .dispatch import plot
 from .family import plot_family
 from .handling import plot_handling
+from .margins import plot_margins
 from .mode_shapes import plot_mode_shapes
 from .moment_line import plot_moment_line
 from .motion import plot_simulation
@@ -37,6 +38,7 @@ __all__ = [
     "plot_handling",
     "plot_locus",
     "plot_map",
+    "plot_margins",
     "plot_mode_shapes",
     "plot_moment_line",
     "plot_overview",

@@ -1,10 +1,15 @@
-"""Motions as moving pictures: GIF and MP4 by matplotlib, or one page that needs nothing but a browser."""
+"""Motions as moving pictures: GIF, MP4 by ffmpeg, or one page that needs nothing but a browser."""
 
 from __future__ import annotations
 
+import contextlib
 import io
+import itertools
 import os
+import shutil
+import subprocess
 import tempfile
+import textwrap
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -22,6 +27,9 @@ FORMATS = (".gif", ".mp4", ".html")
 WIDTH = 6.4
 """Width of the picture [in]."""
 
+TITLE = 84
+"""Letters of the title that fit into a line."""
+
 
 def animate(
     result: Simulation | Scene,
@@ -37,7 +45,8 @@ def animate(
     result
         What `ucrit.simulate` returned for one vehicle, or a scene made of a mode.
     path
-        File that ends in ``.gif``, ``.mp4`` (needs ffmpeg) or ``.html`` (one page with a slider, no network).
+        File that ends in ``.gif``, ``.mp4`` (needs the extra ``film``, or ffmpeg) or ``.html`` (one page with a slider,
+        no network).
     enlarge
         Factor by which departures from the basic motion are drawn larger than they are; not for a scene.
     progress
@@ -46,7 +55,7 @@ def animate(
     Raises
     ------
     UcritError
-        If the model has no drawing, the ending is another one, ffmpeg is missing, or the file cannot be written.
+        If the model has no drawing, the ending is another one, no encoder is installed, or the file cannot be written.
 
     Examples
     --------
@@ -75,60 +84,81 @@ def animate(
 
 def film_format(path: str | os.PathLike[str]) -> str:
     """Return the ending of an animation's file; raise `UcritError` for one that cannot be written here."""
-    from matplotlib.animation import FFMpegWriter
-
     ending = Path(path).suffix.lower()
     if ending not in FORMATS:
         raise UcritError(f"an animation is written to a file that ends in {', '.join(FORMATS)}, got '{path}'")
-    if ending == ".mp4" and not FFMpegWriter.isAvailable():
-        raise MissingExtraError("an MP4 film needs ffmpeg, which is not installed; .gif and .html need nothing more")
+    if ending == ".mp4" and encoder() is None:
+        raise MissingExtraError(
+            "an MP4 film needs ffmpeg: install it, or pip install 'ucrit[film]'; .gif and .html need nothing more"
+        )
     return ending
 
 
+def encoder() -> str | None:
+    """Return the path of an ffmpeg: the one that matplotlib is set to, else that of the extra ``film``."""
+    import matplotlib as mpl
+
+    found = shutil.which(str(mpl.rcParams["animation.ffmpeg_path"]))
+    if found is not None:
+        return str(found)
+    try:
+        from imageio_ffmpeg import get_ffmpeg_exe
+
+        return str(get_ffmpeg_exe())
+    except (ImportError, RuntimeError):  # the second where the package came without a program for this machine
+        return None
+
+
 def _film(scene: Scene, ending: str, progress: Callable[[float, float], None] | None) -> bytes:
+    from PIL import Image
+
     with style.settings():
         figure, show = stage(scene)
         show(0)
         figure.canvas.draw()
         figure.set_layout_engine("none")  # laid out once: each time would take longer than the drawing
 
-        def frames() -> Iterator[Any]:
+        def pictures() -> Iterator[Any]:
             for k in range(len(scene.times)):
                 show(k)
-                yield figure
+                figure.canvas.draw()
+                size = figure.canvas.get_width_height()
+                yield Image.frombytes("RGBA", size, bytes(figure.canvas.buffer_rgba()))
                 if progress is not None:
                     progress(k + 1, len(scene.times))
 
         rate = round(frame_rate(scene.times))
-        return _mp4(frames(), rate) if ending == ".mp4" else _gif(frames(), rate)
+        return _mp4(pictures(), rate) if ending == ".mp4" else _gif(pictures(), rate)
 
 
-def _gif(frames: Iterator[Any], rate: int) -> bytes:
+def _gif(pictures: Iterator[Any], rate: int) -> bytes:
     from PIL import Image
 
-    pictures = []
-    for figure in frames:
-        figure.canvas.draw()
-        whole = Image.frombytes("RGBA", figure.canvas.get_width_height(), bytes(figure.canvas.buffer_rgba()))
-        pictures.append(whole.convert("RGB").quantize(32, dither=Image.Dither.NONE))
     content = io.BytesIO()
-    first, *others = pictures
+    first, *others = [picture.convert("RGB").quantize(32, dither=Image.Dither.NONE) for picture in pictures]
     first.save(content, "GIF", save_all=True, append_images=others, duration=1000 // rate, loop=0)
     return content.getvalue()
 
 
-def _mp4(frames: Iterator[Any], rate: int) -> bytes:
-    from matplotlib.animation import FFMpegWriter
-
-    writer, started = FFMpegWriter(fps=rate), False
+def _mp4(pictures: Iterator[Any], rate: int) -> bytes:
+    first = next(pictures)
+    size = "{}x{}".format(*first.size)
+    given = ["-f", "rawvideo", "-pix_fmt", "rgba", "-s", size, "-r", str(rate), "-i", "-"]
+    even = ["-vf", "crop=trunc(iw/2)*2:trunc(ih/2)*2", "-c:v", "h264", "-pix_fmt", "yuv420p"]  # what browsers play
     with tempfile.TemporaryDirectory() as folder:
         film = Path(folder) / "film.mp4"
-        for figure in frames:
-            if not started:
-                writer.setup(figure, str(film), dpi=100)
-                started = True
-            writer.grab_frame()
-        writer.finish()
+        command = [str(encoder()), "-loglevel", "error", *given, *even, "-movflags", "+faststart", str(film)]
+        with subprocess.Popen(command, stdin=subprocess.PIPE, stderr=subprocess.PIPE) as run:
+            assert run.stdin is not None
+            assert run.stderr is not None
+            with contextlib.suppress(BrokenPipeError):  # it says itself why it stopped
+                for picture in itertools.chain([first], pictures):
+                    run.stdin.write(picture.tobytes())
+                run.stdin.close()
+            told = run.stderr.read().decode(errors="replace").strip()
+        if run.returncode:
+            reason = told.splitlines()[-1] if told else f"exit status {run.returncode}"
+            raise UcritError(f"ffmpeg could not write the film: {reason}")
         return film.read_bytes()
 
 
@@ -152,13 +182,14 @@ def stage(scene: Scene) -> tuple[Any, Callable[[int], None]]:
     from matplotlib.ticker import MultipleLocator
 
     seen = camera(scene)
-    height = WIDTH * 0.88 * seen.height / seen.width + 0.9
-    figure = style.new_figure(WIDTH, min(height, 7.0))
+    title = textwrap.fill(caption(scene), TITLE)
+    height = min(WIDTH * 0.88 * seen.height / seen.width + 0.9, 7.0) + 0.2 * title.count("\n")
+    figure = style.new_figure(WIDTH, height)
     FigureCanvasAgg(figure)
     axes = figure.add_subplot()
     style.tidy(axes)
     axes.set_aspect("equal")
-    axes.set_title(caption(scene), fontsize=9, color=style.INK, loc="left")
+    axes.set_title(title, fontsize=9, color=style.INK, loc="left")
     axes.set_xlabel("m")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_locator(MultipleLocator(seen.grid))

@@ -9,9 +9,13 @@ import numpy as np
 
 from ..core.errors import UcritError
 from . import labels, style
+from .stability_map import fill
 
 if TYPE_CHECKING:
     from ..analyses.boundary_result import StabilityBoundary
+
+LIGHT = np.array([-0.36, -0.48, 0.8])
+"""Where the light on surfaces comes from, as a unit vector of shares of the ranges."""
 
 DASHES = {"flutter": "-", "divergence": "--", "order": ":"}
 
@@ -43,7 +47,11 @@ def plot_boundary(result: StabilityBoundary, *, figure: Any = None) -> Any:
         (_curves if len(result.parameters) == 2 else _surface)(axes, result)
         declared = type(result.vehicle).declaration.parameters
         now = [float(result.vehicle.values[name]) for name in result.parameters]
-        if np.all((result.lower <= now) & (now <= result.upper)):
+        inside = bool(np.all((result.lower <= now) & (now <= result.upper)))
+        if result.sides is not None:
+            grid = tuple(np.asarray(result.sides.coords[name]) for name in result.parameters)
+            fill(axes, (grid[0], grid[1]), result.sides.stable.T, (now[0], now[1]) if inside else None)
+        if inside:
             axes.plot(*([x] for x in now), "D", color=style.INK, markersize=6.5, zorder=6, gid="design")
         for axis, name, lo, hi, log in zip(
             "xyz", result.parameters, result.lower, result.upper, result.log, strict=False
@@ -79,15 +87,19 @@ def _curves(axes: Any, result: StabilityBoundary) -> None:
 
 
 def _surface(axes: Any, result: StabilityBoundary) -> None:
+    """Draw triangles, those that face the light brighter."""
+    from matplotlib.colors import to_rgb
+    from mpl_toolkits.mplot3d.art3d import Poly3DCollection
+
+    shares = (result.points - result.lower) / (result.upper - result.lower)
     for kind in np.unique(result.kinds):
         part = result.pieces[(result.kinds[result.pieces] == kind).any(axis=1)]
-        colour = style.STABLE if kind == "flutter" else style.UNSTABLE
-        axes.plot_trisurf(
-            *result.points.T,
-            triangles=part,
-            color=colour,
-            shade=False,
-            edgecolor=style.INK,
-            linewidth=0.1,
-            label=str(kind),
+        a, b, c = (shares[part[:, k]] for k in range(3))
+        normal = np.cross(b - a, c - a)
+        length = np.linalg.norm(normal, axis=1)
+        bright = 0.6 + 0.4 * np.abs(normal @ LIGHT) / np.where(length > 0, length, 1)
+        colours = bright[:, None] * np.array(to_rgb(style.STABLE if kind == "flutter" else style.UNSTABLE))
+        faces = Poly3DCollection(
+            result.points[part], facecolors=colours, edgecolors=colours, linewidths=0.3, label=str(kind)
         )
+        axes.add_collection3d(faces)

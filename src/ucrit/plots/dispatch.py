@@ -11,6 +11,7 @@ from .boundary import plot_boundary
 from .cycles import plot_cycles
 from .family import plot_family
 from .handling import plot_handling
+from .margins import plot_margins
 from .mode_shapes import plot_mode_shapes
 from .moment_line import plot_moment_line
 from .motion import plot_simulation
@@ -50,6 +51,7 @@ DRAWN: dict[str, tuple[str, Callable[..., Any]]] = {
     "LimitCycles": ("limit_cycles", plot_cycles),
     "Analysis": ("analyze", _analysis),
     "Locus": ("locus", _locus),
+    "Margins": ("margins", plot_margins),
     "Modes": ("modes", _modes),
     "MomentLine": ("moment_line", plot_moment_line),
     "Remedy": ("remedies", plot_remedies),

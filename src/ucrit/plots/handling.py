@@ -17,6 +17,8 @@ Array = npt.NDArray[Any]
 
 GRAVITY = 9.80665
 ROOM = 1.06
+REGIONS = {"oversteer": style.STABLE, "unstable": style.UNSTABLE}
+"""Tints of regions in the picture of the steer angle."""
 
 
 def plot_handling(found: Handling, *, figure: Any = None) -> Any:
@@ -24,7 +26,8 @@ def plot_handling(found: Handling, *, figure: Any = None) -> Any:
 
     On the left the lateral acceleration that each axle gives against its slip angle; in the middle the difference of
     the two slip angles at equal lateral acceleration, the handling curve; on the right the steer angle against the
-    curvature of the path. Unstable turns are dashed.
+    curvature of the path, with the regions of oversteer and instability, and what a neutral car would need. Unstable
+    turns are dashed.
 
     Parameters
     ----------
@@ -74,16 +77,22 @@ def _curve(axes: Any, found: Handling) -> None:
     side = {"ha": "center", "va": "bottom", "xycoords": ("axes fraction", "axes fraction")}
     style.label(axes, "oversteer", (0.25, 0.02), **side)
     style.label(axes, "understeer", (0.75, 0.02), **side)
+    axes.legend(frameon=False, fontsize=8.5, loc="center left")
     axes.set_xlabel("front less rear slip angle [deg]")
 
 
 def _steer(axes: Any, found: Handling) -> None:
     delta = np.rad2deg(found.delta)
+    named = set()
     for part in found.ranges:
-        if part.kind == "unstable":
+        if part.kind in REGIONS:
             low, high = sorted(part.curvature)
-            axes.axvspan(low, high, color=style.UNSTABLE, linewidth=0, zorder=0, gid="unstable")
-    _by_stability(axes, found.curvature, delta, found.stable, "steer")
+            text = None if part.kind in named else part.kind
+            axes.axvspan(low, high, color=REGIONS[part.kind], linewidth=0, zorder=0, gid=part.kind, label=text)
+            named.add(part.kind)
+    neutral = _neutral(found) * found.curvature
+    axes.plot(found.curvature, neutral, color=style.MUTED, linewidth=1, linestyle=":", label="neutral", gid="neutral")
+    _by_stability(axes, found.curvature, delta, found.stable, "steer", texts=("", ""))
     near = found.a_y <= 0.995 * found.largest
     low, high = float(delta[near].min()), float(delta[near].max())
     axes.set_ylim(min(low, 0) - 0.15 * (high - low), high + 0.25 * (high - low))
@@ -92,15 +101,25 @@ def _steer(axes: Any, found: Handling) -> None:
         at = part.curvature[1]
         axes.plot([at], [np.interp(at, found.curvature[near], delta[near])], "o", color=style.INK, markersize=4,
                   gid=f"{part.kind}-{after.kind}")  # fmt: skip
-    axes.locator_params(axis="x", nbins=5)
+    axes.locator_params(axis="x", nbins=4)
     axes.legend(frameon=False, fontsize=8.5, loc="upper left")
     axes.set_xlabel(f"curvature 1/{labels.math_symbol('R')} [{labels.unit_text('1/m')}]")
     axes.set_ylabel(f"steer angle {labels.math_symbol(found.steer)} [deg]")
 
 
-def _by_stability(axes: Any, x: Array, y: Array, stable: Array, gid: str) -> None:
+def _neutral(found: Handling) -> float:
+    """Return the slope [deg m] that the steer angle would have if the slip angles did not differ: the wheelbase."""
+    near = found.curvature <= 0.1 * found.curvature.max()
+    near[:2] = True
+    rest = found.delta - found.difference
+    return float(np.rad2deg(np.polyfit(found.curvature[near], rest[near], 1)[0]))
+
+
+def _by_stability(
+    axes: Any, x: Array, y: Array, stable: Array, gid: str, texts: tuple[str, str] = ("stable", "unstable")
+) -> None:
     """Draw a curve, stable pieces solid and unstable ones dashed, joined where they meet."""
-    for flag, dash, word in ((True, "-", "stable"), (False, (0, (3, 1.6)), "unstable")):
+    for flag, dash, word, text in ((True, "-", "stable", texts[0]), (False, (0, (3, 1.6)), "unstable", texts[1])):
         mask = stable == flag
         beside = mask.copy()
         if not flag:
@@ -108,5 +127,5 @@ def _by_stability(axes: Any, x: Array, y: Array, stable: Array, gid: str) -> Non
         if beside.any():
             axes.plot(
                 np.where(beside, x, np.nan), np.where(beside, y, np.nan), color=style.colour(2 if flag else 1),
-                linestyle=dash, linewidth=1.9, label=word, gid=f"{gid}-{word}",
+                linestyle=dash, linewidth=1.9, label=text, gid=f"{gid}-{word}",
             )  # fmt: skip

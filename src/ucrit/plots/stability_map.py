@@ -53,12 +53,9 @@ def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any 
         for axis, values in (("x", x), ("y", y)):
             if _ratios(values):
                 getattr(axes, f"set_{axis}scale")("log")
-        shades = [style.UNSTABLE, style.STABLE]
-        axes.contourf(x, y, stable.astype(float), levels=[-0.5, 0.5, 1.5], colors=shades, zorder=0)
+        fill(axes, (x, y), stable, point)
         if stable.any() and not stable.all():
             axes.contour(x, y, stable.astype(float), levels=[0.5], colors=[style.INK], linewidths=1.4, zorder=3)
-        for flags, word in ((stable, "stable"), (~stable, "unstable")):
-            _name(axes, flags, (x, y), word, point)
         if point is not None:
             _design(axes, point, (x, y), stable)
         axes.set_xlim(x.min(), x.max())
@@ -67,6 +64,14 @@ def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any 
         axes.set_ylabel(_axis(declared[names[1]]))
         style.tidy(axes, grid=False)
     return fig
+
+
+def fill(axes: Any, grid: tuple[Array, Array], stable: Array, point: Point | None) -> None:
+    """Colour stable and unstable regions, and name them."""
+    shades = [style.UNSTABLE, style.STABLE]
+    axes.contourf(*grid, stable.astype(float), levels=[-0.5, 0.5, 1.5], colors=shades, zorder=0)
+    for flags, word in ((stable, "stable"), (~stable, "unstable")):
+        _name(axes, flags, grid, word, point)
 
 
 def _axis(declared: Parameter) -> str:

@@ -20,7 +20,8 @@ def plot_tire(curves: TireCurves, *, figure: Any = None) -> Any:
 
     Side force over load against slip angle, for each road, or for each load where there is one road; side force
     against load; longitudinal force over load against slip; side force against longitudinal force at several slip
-    angles, on the first road and for the load in the middle.
+    angles, on the first road and for the load in the middle, with the limit of all that friction gives, the locked
+    wheel, and the wheel that spins twice as fast as it rolls.
 
     Parameters
     ----------
@@ -92,14 +93,21 @@ def _along(axes: Any, curves: TireCurves) -> None:
 
 
 def _envelope(axes: Any, curves: TireCurves) -> None:
+    """Draw both forces of a wheel at several slip angles, those of the locked wheel, and the limit of friction."""
     i = curves.loads.size // 2
+    if getattr(curves.tire, "friction", ()):
+        axes.plot(
+            curves.limit_x[0, i] / 1000, -curves.limit_y[0, i] / 1000, color=style.MUTED, linewidth=1, gid="limit",
+            label="limit",
+        )  # fmt: skip
     for number, beta in enumerate(curves.beta):
         x, y = (values[0, i, number] / 1000 for values in (curves.envelope_x, -curves.envelope_y))
         _line(axes, x, y, number, f"{np.degrees(beta):.3g} deg")
-    locked = curves.envelope_x[0, i, :, 0] / 1000, -curves.envelope_y[0, i, :, 0] / 1000
-    if curves.kappa[0] == -1:
-        axes.plot(*locked, "o", color=style.INK, markersize=4, label="locked", zorder=5)
+    for end, text, face in ((0, "locked", style.INK), (-1, "spinning", "none")):
+        if abs(curves.kappa[end]) == 1:
+            ends = curves.envelope_x[0, i, :, end] / 1000, -curves.envelope_y[0, i, :, end] / 1000
+            axes.plot(*ends, "o", color=style.INK, markerfacecolor=face, markersize=4, label=text, zorder=5, gid=text)
     axes.set_xlabel(f"longitudinal force [kN], load {curves.loads[i] / 1000:.3g} kN")
     axes.set_ylabel("side force [kN]")
-    axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]), top=1.45 * axes.get_ylim()[1])
+    axes.set_ylim(bottom=min(0.0, axes.get_ylim()[0]), top=1.5 * axes.get_ylim()[1])
     axes.legend(frameon=False, loc="upper center", fontsize=8, ncols=3, labelcolor=style.INK, columnspacing=1)

@@ -50,7 +50,7 @@ def _printed(parts: Sequence[Formula], left: Sequence[str] | None = None) -> tup
     """Typeset formulas but the too long ones, with a remark that counts these."""
     shown = []
     for i, part in enumerate(parts):
-        if not formulas.too_long(part.text):
+        if not formulas.too_long(part.text, formulas.LONGEST // 2):
             shown.append(formulas.formula(part.mathml, "= 0", "" if left is None else left[i]))
     missing = len(parts) - len(shown)
     note = f"{missing} of {len(parts)} formulas are too long to print; ucrit.show returns them." if missing else ""

@@ -16,7 +16,10 @@ LONGEST = 6000
 LINE = 90
 """Characters after which a sum goes on in a new line."""
 
-SIGNS = ("+", "-", "\N{MINUS SIGN}")
+MINUS = "\N{MINUS SIGN}"
+SIGNS = ("+", "-", MINUS)
+TALL = ("mfrac", "mtable", "msqrt", "munderover")
+FUNCTIONS = ("arctan", "atan", "cos", "exp", "ln", "log", "sgn", "sign", "sin", "tan", "tanh")
 INVISIBLE_TIMES = "\N{INVISIBLE TIMES}"
 
 _ENTITY = re.compile(r"&(?!(?:amp|lt|gt|quot|apos);)(#?\w+);")
@@ -130,9 +133,9 @@ def power(name: str, exponent: int) -> str:
     return f"<msup>{symbol_mathml(name)}<mn>{exponent}</mn></msup>"
 
 
-def too_long(expression: str) -> bool:
-    """Tell whether an expression is longer than a page should print."""
-    return len(expression) > LONGEST
+def too_long(expression: str, most: int | None = None) -> bool:
+    """Tell whether an expression is longer than a page should print: `LONGEST`, or less where there are several."""
+    return len(expression) > (LONGEST if most is None else most)
 
 
 def _parsed(mathml: str) -> Element:
@@ -141,6 +144,15 @@ def _parsed(mathml: str) -> Element:
     root = ElementTree.fromstring(f"<mrow>{text}</mrow>")
     while len(root) == 1 and root[0].tag == "mrow":
         root = root[0]
+    for element in root.iter():
+        if element.tag in ("mo", "mn") and (element.text or "").startswith("-"):
+            element.text = MINUS + (element.text or "")[1:]
+        elif element.tag == "mi" and element.text in FUNCTIONS:  # as an operator it keeps a distance to what it follows
+            element.tag = "mo"
+            element.attrib.update(form="prefix", lspace="0.17em", rspace="0")
+        elif element.tag == "mrow" and not any(inner.tag in TALL for inner in element.iter()):
+            for bracket in (inner for inner in element if inner.text in ("(", ")")):
+                bracket.set("stretchy", "false")  # a font's next larger one stands off
     return root
 
 

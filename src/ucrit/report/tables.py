@@ -12,6 +12,8 @@ from ..plots.labels import NOTHING, fixed, number, percent, unit_text
 from . import formulas
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from ..analyses.analyze import Analysis
     from ..analyses.critical import Critical
     from ..analyses.modes import Mode
@@ -33,14 +35,14 @@ class Judgement:
     sign: str
 
 
-def judgement(analysis: Analysis) -> Judgement:
-    """Return the verdict in a few words."""
+def judgement(analysis: Analysis, say: Callable[[float], str] = speed_text) -> Judgement:
+    """Return the verdict in a few words; ``say`` writes a speed [m/s]."""
     if analysis.stable:
         neutral = analysis.verdict.state == "neutral"
         return Judgement("Neutral", "neutral", "○") if neutral else Judgement("Stable", "good", "✓")
     if analysis.speed is None:
         return Judgement("Unstable", "bad", "✕")
-    at = speed_text(analysis.speed)
+    at = say(analysis.speed)
     if analysis.verdict.growing:
         return Judgement(f"Unstable at {at}", "bad", "✕")
     return Judgement(f"Not stable at every speed up to {at}", "bad", "✕")

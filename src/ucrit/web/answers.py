@@ -14,7 +14,9 @@ from ..analyses.listing import listing
 from ..analyses.locus import Locus, locus
 from ..analyses.remedies import Remedy
 from ..analyses.stability_map import stability_map
-from ..core.errors import UcritError
+from ..analyses.uncertainty import uncertainty
+from ..analyses.wording import describe, speed_text
+from ..core.errors import UcritError, near_match
 from ..plots.branches import marks, upper, view
 from ..plots.labels import percent
 from ..report import choices, formulas, tables
@@ -22,18 +24,25 @@ from .ranges import drawn_range, slider_range
 from .subject import ends, parameter
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from ..core.model import Model
 
 POINTS = 60
 """Even steps of a root locus on the page; it is refined where eigenvalues move fast."""
 
-DEPTH = 3
+DEPTH = 2
 """Times that steps in doubt are halved, so that the picture can follow a slider."""
 
 ACROSS, UP = 140, 100
 """Points of the stability map."""
+
+SPEEDS: dict[str, Callable[[float], str]] = {
+    "si": speed_text,
+    "kmh": lambda speed: f"{speed * 3.6:.4g} km/h",
+    "mph": lambda speed: f"{speed / 0.44704:.4g} mph",
+}
+"""How sentences write a speed [m/s], by the units that the page shows."""
 
 Answer = dict[str, Any]
 
@@ -60,6 +69,7 @@ def opened(vehicle: Model, body: Mapping[str, Any]) -> Answer:
         "note": vehicle.info.note,
         "model": model.model_id(),
         "title": model.title(),
+        "made": _made_of(vehicle),
         "speed": declared.speed,
         "along": declared.speed or (pair[0] if pair else next(iter(declared.parameters), None)),
         "map": pair,
@@ -74,10 +84,36 @@ def opened(vehicle: Model, body: Mapping[str, Any]) -> Answer:
                 "allowed": p.allowed,
                 "value": float(vehicle.values[name]),
                 "range": slider_range(found, name),
+                "known": _known(vehicle, name),
             }
             for name, p in declared.parameters.items()
         ],
     }
+
+
+def _made_of(vehicle: Model) -> str:
+    """Return the laws in the model's slots and its controllers as words."""
+    made, slots = type(vehicle).ingredients(), type(vehicle).declaration.slots
+    told = [f"{slots[name].meaning if name in slots else name}: {law}" for name, law in made.get("parts", {}).items()]
+    controllers = made.get("controllers", ())
+    return "; ".join([*told, *([f"controllers: {', '.join(controllers)}"] if controllers else [])])
+
+
+def _known(vehicle: Model, name: str) -> Answer | None:
+    """Return how well a vehicle file says that a parameter is known [SI]."""
+    tolerance = vehicle.info.tolerances.of(name)
+    if tolerance is None:
+        return None
+    bounded = math.isfinite(tolerance.low)
+    return {"sd": tolerance.sd or None, "range": [tolerance.low, tolerance.high] if bounded else None}
+
+
+def say_speed(body: Mapping[str, Any]) -> Callable[[float], str]:
+    """Return what writes a speed in the units that a request asks for, those of Python where it asks for none."""
+    units = body.get("units", "si")
+    if not isinstance(units, str) or units not in SPEEDS:
+        raise UcritError(f"there are no units '{str(units)[:30]}'{near_match(str(units)[:30], SPEEDS)}")
+    return SPEEDS[units]
 
 
 def _states(vehicle: Model) -> list[Answer]:
@@ -94,9 +130,9 @@ def _states(vehicle: Model) -> list[Answer]:
 
 def state(vehicle: Model, body: Mapping[str, Any]) -> Answer:
     """Return the verdict, the modes and the root locus: all that follows a slider."""
+    say = say_speed(body)
     found = analyze(vehicle, advise=False)
-    judged = tables.judgement(found)
-    sentence = found.sentence
+    judged, sentence = tables.judgement(found, say), describe(found, say)
     return {
         "values": {name: float(value) for name, value in vehicle.values.items()},
         "word": judged.word,
@@ -178,6 +214,18 @@ def _remedy(r: Remedy, found: Analysis) -> Answer:
         "value": r.value if exact else float(told.text),
         "change": percent(math.inf if told.relative is None else told.relative),
     }
+
+
+def sure(vehicle: Model, body: Mapping[str, Any]) -> Answer:
+    """Return what the tolerances that still hold mean for the critical speed, in a sentence; empty without any."""
+    say, speed = say_speed(body), type(vehicle).declaration.speed
+    known = vehicle.info.tolerances.around(vehicle.values)
+    if not known or speed is None:
+        return {"sentence": ""}
+    now = abs(float(vehicle.values[speed]))
+    found = uncertainty(vehicle.with_info(tolerances=known))
+    share = f"{100 * float(found.probability(now)):.3g} %"
+    return {"sentence": f"With these tolerances: {found.words(say)}; unstable at {say(now)} in {share} of all."}
 
 
 def plane(vehicle: Model, body: Mapping[str, Any]) -> Answer:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from ..analyses.analyze import analyze
 from ..analyses.show import show
 from ..report import derivation, tables
+from .answers import say_speed
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -24,13 +25,17 @@ def equations(vehicle: Model, body: Mapping[str, Any]) -> dict[str, Any]:
     environment = Environment(
         loader=FileSystemLoader(HERE), autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
-    found, described = analyze(vehicle, advise=False), show(vehicle)
+    found, described, say = analyze(vehicle, advise=False), show(vehicle), say_speed(body)
     content = {
         "why": found.why_no_criteria,
         "settled": found.criteria.settled if found.criteria else None,
         "neutral": bool(found.criteria and found.criteria.kind == "neutral"),
         "criteria": tables.criteria(found),
-        "critical": [row for row in tables.critical(found.critical.values) if row["closed"]] if found.critical else [],
+        "critical": [
+            (say(c.value), row["closed"])
+            for c, row in zip(found.critical or (), tables.critical(tuple(found.critical or ())), strict=True)
+            if row["closed"]
+        ],
         "steps": derivation.steps(described),
         "sources": described.sources,
     }

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import contextlib
 import json
 import threading
 import traceback
+from collections import defaultdict
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
@@ -45,6 +45,7 @@ QUICK: dict[str, Callable[[Model, Mapping[str, Any]], Any]] = {"state": answers.
 SLOW: dict[str, Callable[[Model, Mapping[str, Any]], Any]] = {
     "open": answers.opened,
     "remedies": answers.remedies,
+    "sure": answers.sure,
     "motion": motion,
     "equations": equations,
     "download": download,
@@ -57,7 +58,7 @@ TIME_LIMIT = 60.0
 BODY_TIME = 10.0
 """Seconds in which the body of a request must have arrived."""
 
-_deriving = threading.Lock()
+_deriving: defaultdict[type[Model], threading.Lock] = defaultdict(threading.Lock)
 _derived: set[tuple[str, type[Model]]] = set()
 
 
@@ -114,7 +115,8 @@ async def _answered(
     except TooLargeError:
         return _json({"error": f"a request may have {MAX_BODY // 1024} kB, not more"}, 413)
     except TimeoutError:
-        return _json({"error": "this takes longer than a page can wait; the command line has no such limit"}, 503)
+        sentence = "this takes longer than a page can wait; ask again in a minute: what was derived by then is kept"
+        return _json({"error": sentence}, 503)
     except UcritError as error:
         return _json({"error": " ".join(str(error).split())}, 400)
     except Exception:
@@ -127,9 +129,8 @@ def _respond(name: str, work: Callable[[Model, Mapping[str, Any]], Any], content
     body = read_json(content)
     vehicle = read_subject(body)
     with np.errstate(all="ignore"):  # what comes of overflows is seen below, where it cannot be written as JSON
-        _derive(name, work, vehicle)
         try:
-            found = work(vehicle, body)
+            found = _worked(name, work, vehicle, body)
             if not isinstance(found, File):
                 return _json(found)
         except (ArithmeticError, np.linalg.LinAlgError, NotFiniteError):
@@ -138,16 +139,15 @@ def _respond(name: str, work: Callable[[Model, Mapping[str, Any]], Any], content
     return Response(found.content, media_type=found.media, headers=disposition)
 
 
-def _derive(name: str, work: Callable[[Model, Mapping[str, Any]], Any], vehicle: Model) -> None:
-    """Derive the formulas that a model's answers need when it is asked first, one visitor at a time."""
+def _worked(name: str, work: Callable[[Model, Mapping[str, Any]], Any], vehicle: Model, body: Mapping[str, Any]) -> Any:
+    """Do the work; of those who ask a model's formulas first, one derives them while the others wait."""
     key = (name, type(vehicle))
-    if name == "download" or key in _derived:
-        return
-    with _deriving:
-        if key not in _derived:
-            with contextlib.suppress(UcritError, ArithmeticError, np.linalg.LinAlgError):
-                work(vehicle, {})
-            _derived.add(key)
+    if key in _derived:
+        return work(vehicle, body)
+    with _deriving[type(vehicle)]:
+        found = work(vehicle, body)
+        _derived.add(key)
+        return found
 
 
 class NotFiniteError(Exception):

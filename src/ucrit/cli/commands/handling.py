@@ -16,7 +16,7 @@ from ..parameters import Name, assignments, complete_parameters, load_vehicle
     metavar="NAME=VALUE",
     multiple=True,
     shell_complete=complete_parameters,
-    help="Change a parameter; may be repeated.",
+    help="Change a parameter or an axle's tire; may be repeated.",
 )
 @click.option("--upto", metavar="SPEED", help="Turn at this speed; the vehicle's own by default.")
 @click.option("--slip", metavar="ANGLE", default="0.3", help="End at this slip angle of an axle; 0.3 rad by default.")
@@ -34,6 +34,7 @@ def command(vehicle: str, changes: tuple[str, ...], upto: str | None, slip: str,
       ucrit handling spinning-car
       ucrit handling spinning-car --upto "70 km/h" --out diagram.png
       ucrit handling ploughing-car --set rear_mu=0.5 --out diagram.csv
+      ucrit handling ploughing-car --set front=mine.tir --set rear=mine.tir
 
     Exit status: 0 done, whatever the limit; 2 wrong input.
     """

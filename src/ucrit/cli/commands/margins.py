@@ -19,32 +19,43 @@ from ..parameters import Name, assignments, complete_parameters, load_vehicle
     shell_complete=complete_parameters,
     help="Change a parameter; may be repeated.",
 )
-def command(vehicle: str, ranges: tuple[str, ...], chosen: str | None, changes: tuple[str, ...]) -> None:
+@click.option(
+    "-o", "--out", metavar="FILE", help="Draw them over a range (.png, .svg, .pdf) or write a table (.csv, .json, ...)."
+)
+def command(
+    vehicle: str, ranges: tuple[str, ...], chosen: str | None, changes: tuple[str, ...], out: str | None
+) -> None:
     """Tell by how much the gain, the phase and the delay of the control loop may change before it is unstable.
 
     The vehicle's file names its controllers. With ranges the margins are a table, as CSV; a range is LO:HI, LO:HI:COUNT
-    or values separated by commas.
+    or values separated by commas. One range can be drawn.
 
     \b
     Examples:
       ucrit margins motorcycle-steered-to-lean
       ucrit margins motorcycle-steered-to-lean --set G=0.4
       ucrit margins motorcycle-steered-to-lean U=9:40:32
+      ucrit margins motorcycle-steered-at-the-rear U=10:75:200 --out margins.png
 
     Exit status: 0 done; 2 wrong input.
     """
     from ...analyses.margins import driven_inputs, margins
     from ...analyses.sweep import read_ranges
+    from ...core.errors import UcritError
+    from ..output import to_stdout, writer
 
+    write = None if out is None else writer(out)
     subject = load_vehicle(vehicle, assignments(changes, "G=0.3"))
     names = [chosen] if chosen else driven_inputs(type(subject))
     read = assignments(ranges, '"U=20:130:12 km/h"')
     spans = read_ranges(subject, read)
+    if write is not None and len(names) > 1:
+        raise UcritError(f"a file holds the margins at one input: choose --input {' or --input '.join(names)}")
     for name in names:
         found = margins(subject.with_(**spans), name)
-        if spans:
-            from ..output import to_stdout
-
+        if write is not None:
+            write(found)
+        elif spans:
             to_stdout(found)
         else:
             click.echo(str(found))

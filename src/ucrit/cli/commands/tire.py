@@ -25,8 +25,8 @@ def command(
     """Show version, units and axes of a tire file, and what the tire does under some loads.
 
     TIRE is the name of a tire that is shipped, a .tir file, or the name of a law that --set gives numbers to. A
-    file's tire is shown without the shifts of the one that was measured; TIRE:measured keeps them. In a vehicle
-    file the same names go into the table [parts].
+    file's tire is shown without the shifts of the one that was measured; TIRE:measured keeps them, and TIRE:SLIP=angle
+    sets a switch. In a vehicle file the same names go into the table [parts].
 
     \b
     Examples:
@@ -84,14 +84,16 @@ def _show(curves: TireCurves, name: str) -> None:
 def _file(page: Any, name: str) -> None:
     from ... import catalogue
 
-    file = name.removesuffix(catalogue.AS_MEASURED)
+    file, chosen = catalogue.tire_switches(name)
     if not (file.lower().endswith(".tir") or file in catalogue.tire_names()):
         return
     found = catalogue.tire_file(file)
     units = ", ".join(f"{kind.lower()} in {unit}" for kind, unit in found.units.items())
-    shifts = "as measured" if file != name else "left out: the mean of the tire and its mirror image"
+    shifts = "left out: the mean of the tire and its mirror image" if chosen.pop("symmetric", True) else "as measured"
+    rows = [["version", found.version], ["units", units], ["axes", found.axes], ["shifts", shifts]]
+    rows += [["switches", ", ".join(f"{key} {value}" for key, value in chosen.items())]] if chosen else []
     page.heading("Property file")
-    page.table([["version", found.version], ["units", units], ["axes", found.axes], ["shifts", shifts]])
+    page.table(rows)
 
 
 def _row(curves: TireCurves, road: int, i: int) -> list[str]:

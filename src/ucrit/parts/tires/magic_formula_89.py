@@ -1,8 +1,9 @@
 """Magic formula of 1989. Signs as for all tires; SI units and radians outside, its own units inside.
 
-Coefficients are constants, ``MagicFormula89.of({"a0": 1.3, ...})``. Inside, loads are in kN, angles in degrees and
-longitudinal slip in per cent, forces come out in N and moments in N m; the parameters F_unit and L_unit carry the
-units. The formula's own slip angle has the other sign: its side force goes with it.
+Coefficients are constants, ``MagicFormula89.of({"a0": 1.3, ...})``, or those of a property file whose format is PAC89.
+Inside, loads are in kN, angles in degrees and longitudinal slip in per cent, forces come out in N and moments in N m;
+the parameters F_unit and L_unit carry the units. The formula's own slip angle has the other sign: its side force goes
+with it.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from ...core.declare import param
 from ...core.errors import UcritError
 from ...core.functions import exp, grouped, length, sin, where
 from .coefficients import Coefficients, check_switches, curve
+from .magic_formula_moment import pi
 from .slip import is_zero
 from .tire import Forces, Tire
 
@@ -28,8 +30,11 @@ SHIFTS = ("a9", "a10", "a12", "a13", "b9", "b10", "c12", "c13", "c16", "c17")
 class MagicFormula89(Tire):
     """Magic formula in the form of 1989, each force for itself (Bakker, Pacejka, Lidner, SAE 890087).
 
-    Side force a0 to a13, longitudinal force b0 to b10, aligning moment c0 to c17. Combined slip by similarity: each
-    force is taken at the length of both slips, the longitudinal one told as an angle as stiff as it, and has its share.
+    Side force a0 to a13, longitudinal force b0 to b10, aligning moment c0 to c17. The coefficients say nothing of
+    combined slip, and published programs differ in it; here it is by similarity, which is this package's own choice:
+    each force is taken at the length of both slips, the longitudinal one told as an angle as stiff as it, and has its
+    share. A locked wheel's force so opposes its sliding only roughly.
+
     Switches among the constants: SYMMETRIC ("no", "yes": without the shifts), MOMENT (1, or -1 where the coefficients
     c are for a moment of the other sign).
     """
@@ -47,6 +52,11 @@ class MagicFormula89(Tire):
         for name in NEEDED:
             if name not in cls.constants:
                 raise UcritError(f"{cls.part_id()}: coefficient {name} is missing; needed are {', '.join(NEEDED)}")
+
+    @classmethod
+    def part_id(cls) -> str:
+        """Name of the law: that of its file, where it has one."""
+        return str(cls.constants.get("FILE", "magic-formula-89"))
 
     @property
     def _numbers(self) -> Coefficients:
@@ -89,7 +99,7 @@ class MagicFormula89(Tire):
 
     def forces(self, F_z: Any, alpha: Any, kappa: Any = 0, gamma: Any = 0) -> Forces:
         """Return the forces on the wheel."""
-        c, F, degrees = self._numbers, grouped(F_z / self.F_unit), 180 / _pi(alpha)
+        c, F, degrees = self._numbers, grouped(F_z / self.F_unit), 180 / pi(alpha)
         newton = self.F_unit / 1000
         slip, lean = -alpha * degrees, gamma if is_zero(gamma) else -gamma * degrees
         if is_zero(kappa):
@@ -101,7 +111,7 @@ class MagicFormula89(Tire):
 
     def side_force(self, F_z: Any, alpha: Any) -> Any:
         """Return the side force [N] of an upright wheel that rolls freely."""
-        slip = -alpha * 180 / _pi(alpha)
+        slip = -alpha * 180 / pi(alpha)
         return self.F_unit / 1000 * self._side(self._numbers, grouped(F_z / self.F_unit), slip, 0)
 
     def _combined(self, c: Any, F: Any, alpha: Any, kappa: Any, gamma: Any) -> tuple[Any, Any]:
@@ -132,11 +142,3 @@ def _share(force: Callable[[Any], Any], slip: Any, both: Any, slope: Any, is_odd
     ahead, behind = force(full), force(-full)
     odd = where(any_slip, (ahead - behind) / 2 / full, slope) * slip
     return odd + where(any_slip, (ahead + behind) / 2 * (slip / full) ** 2, force(0))
-
-
-def _pi(angle: Any) -> Any:
-    if hasattr(angle, "free_symbols"):
-        import sympy
-
-        return sympy.pi
-    return math.pi

@@ -15,10 +15,13 @@ from typing import Any
 
 from ...core.errors import UcritError, near_match
 from .magic_formula import MagicFormula
+from .magic_formula_89 import NEEDED as OF_1989
+from .magic_formula_89 import MagicFormula89
 
 AXES = "ISO 8855 at the wheel (TYDEX W): x forward, y to the left, z up"
+AXES_89 = "those of the formula of 1989: the side force goes with the slip angle, and with the camber"
 
-FORMATS = {"PAC2002": ("5.2", "PAC2002 (MF 5.2)"), "MF52": ("5.2", "MF 5.2")}
+FORMATS = {"PAC2002": ("5.2", "PAC2002 (MF 5.2)"), "MF52": ("5.2", "MF 5.2"), "PAC89": ("1989", "PAC89 (Pacejka '89)")}
 FITTYP = {6: ("5.2", "MF 5.2"), 52: ("5.2", "MF 5.2"), 61: ("6.1", "MF 6.1"), 62: ("6.1", "MF 6.2")}
 """Versions that are read: the formulas that belong to them, and their name. MF 6.2 has the forces of 6.1."""
 
@@ -60,7 +63,12 @@ NEEDED: dict[str, tuple[str, ...]] = {
 }
 """Keys without which no force can be told; all others are variations, which are zero where they are not given."""
 
+SECTIONS_89 = {"A": "LATERAL_COEFFICIENTS", "B": "LONGITUDINAL_COEFFICIENTS", "C": "ALIGNING_COEFFICIENTS"}
+NEEDED_89 = {s: tuple(k.upper() for k in OF_1989 if k[0].upper() == letter) for letter, s in SECTIONS_89.items()}
+"""The same for the formula of 1989."""
+
 USED = re.compile(r"[PQR][A-Z]{2,3}\d+|SSZ\d|L[A-Z]{2,4}")
+USED_89 = re.compile(r"[ABC]\d+")
 """Names of coefficients and scale factors."""
 
 _NUMBER = re.compile(r"[-+]?(\d+\.?\d*|\.\d+)([eEdD][-+]?\d+)?")
@@ -77,7 +85,7 @@ class TirFile:
     version
         Name of the format's version, such as ``"MF 6.1"``.
     formulas
-        Edition of the formulas that belongs to it, ``"5.2"`` or ``"6.1"``.
+        Edition of the formulas that belongs to it, ``"1989"``, ``"5.2"`` or ``"6.1"``.
     units
         The file's own units by kind, such as ``{"LENGTH": "meter"}``; values are in SI units.
     axes
@@ -96,20 +104,50 @@ class TirFile:
     values: Mapping[str, float]
     comments: tuple[str, ...] = ()
 
-    def law(self, *, symmetric: bool = True, **switches: Any) -> type[MagicFormula]:
+    def law(self, *, symmetric: bool = True, **switches: Any) -> type[MagicFormula] | type[MagicFormula89]:
         """Return the law: without the shifts of the one tire that was measured, or with them.
 
-        ``switches`` are those of `ucrit.parts.tires.magic_formula`.
+        ``switches`` are those of `ucrit.parts.tires.magic_formula`, such as ``SLIP="angle"``, or of
+        `ucrit.parts.tires.magic_formula_89`.
+
+        Raises
+        ------
+        UcritError
+            If there is no such switch, or it has no such place.
         """
+        of_1989 = self.formulas == "1989"
+        law: Any = MagicFormula89 if of_1989 else MagicFormula
+        for name in switches:
+            if name not in law.switches:
+                raise UcritError(f"{self.name}: there is no switch {name}{near_match(name, law.switches)}")
+        suffixes = (*(() if symmetric else (AS_MEASURED,)), *(f"{k}={v}" for k, v in switches.items()))
+        common = {"SYMMETRIC": "yes" if symmetric else "no", "FILE": ":".join([self.name, *suffixes]), **switches}
+        if of_1989:
+            kept = {key.lower(): value for key, value in self.values.items() if USED_89.fullmatch(key)}
+            found: type[MagicFormula89] = law.of({**kept, **common})
+            return found
         kept = {key: value for key, value in self.values.items() if key in DIMENSIONS or USED.fullmatch(key)}
-        chosen = {"FORMULAS": self.formulas, "CAMBER": "angle" if self.formulas == "5.2" else "sine"}
-        shifts = {"SYMMETRIC": "yes" if symmetric else "no"}
-        file = self.name + ("" if symmetric else AS_MEASURED)
-        return MagicFormula.of({**kept, **chosen, **shifts, "FILE": file, **switches})
+        conventions = {"CAMBER": "angle", "GROWTH": "signed"} if self.formulas == "5.2" else {}
+        later: type[MagicFormula] = law.of({**kept, "FORMULAS": self.formulas, **conventions, **common})
+        return later
 
 
-AS_MEASURED = ":measured"
-"""What is put behind a file's name for the law with the shifts of the one tire that was measured."""
+AS_MEASURED = "measured"
+"""What is put behind a file's name, after a colon, for the law with the shifts of the one tire that was measured."""
+
+
+def split_name(name: str) -> tuple[str, dict[str, Any]]:
+    """Return the file of a tire's name and what is behind it, for `TirFile.law`."""
+    file, chosen = name, {}
+    while match := _BEHIND.fullmatch(file):
+        file, switch, value = match["file"], match["switch"], match["value"]
+        found: Any = int(value) if value and _WHOLE.fullmatch(value) else value
+        chosen[switch or "symmetric"] = found if switch else False
+    return file, dict(reversed(chosen.items()))
+
+
+_WHOLE = re.compile(r"[-+]?\d+")
+_BEHIND = re.compile(rf"(?P<file>.+):(?:{AS_MEASURED}|(?P<switch>\w+)=(?P<value>[\w.+-]+))")
 
 
 def read_tir(path: Path, name: str = "") -> TirFile:
@@ -124,16 +162,17 @@ def read_tir(path: Path, name: str = "") -> TirFile:
     sections, texts, comments = _sections(_text(path), name)
     version, formulas = _version(texts, sections, name)
     units, factors = _units(texts, name)
-    for section, keys in NEEDED.items():
+    needed, axes = (NEEDED_89, AXES_89) if formulas == "1989" else (NEEDED, AXES)
+    for section, keys in needed.items():
         for key in keys:
             if key not in sections:
                 near = near_match(key, [k for k, (_, where) in sections.items() if where == section])
                 raise UcritError(f"{name}: section [{section}]: key {key} is missing{near}")
     values = {key: value * _factor(key, factors) for key, (value, _) in sections.items()}
     for key in ("FNOMIN", "UNLOADED_RADIUS"):
-        if not values[key] > 0:
+        if key in values and not values[key] > 0:
             raise UcritError(f"{name}: section [{sections[key][1]}]: {key} must be above 0, got {values[key]:g}")
-    return TirFile(name, version, formulas, units, AXES, values, comments)
+    return TirFile(name, version, formulas, units, axes, values, comments)
 
 
 def _text(path: Path) -> str:

@@ -1,14 +1,15 @@
 // The page: what is chosen, what is asked, what is drawn. All state is here and in the link; the server keeps none.
-import { Newest, Problem, ask, save } from "./ask.js";
+import { Newest, Problem, ask, request, save } from "./ask.js";
+import { fileDialog } from "./dialog.js";
 import { dampingPlot, frequencyPlot, locusPlot, mapPlot, steady } from "./draw.js";
 import { Film } from "./film.js";
 import { readLink, write } from "./link.js";
+import { $, problem, status, wait } from "./messages.js";
 import { Panel } from "./panel.js";
 import { Plot } from "./plot.js";
 import { comparison, criticalWords, legend, modeRows, remedyList } from "./tables.js";
 import { SYSTEMS, plain, shownUnit } from "./units.js";
 
-const $ = id => document.getElementById(id);
 const IDLE = 120; // ms after the last change before what is slow is asked
 
 // values: as the server confirmed them; asked: with changes that are still under way
@@ -28,22 +29,12 @@ const follow = new Newest("api/state", answered, refused);
 const asides = {
   map: new Newest("api/map", found => { map = found; drawMap(); }, sentence => { map = null; plots.map.empty(sentence); }),
   remedies: new Newest("api/remedies", found => remedyList($("remedies"), found, s.units, apply), sentence => { $("remedies").textContent = sentence; }),
+  sure: new Newest("api/sure", found => { $("sure").textContent = found.sentence; }, sentence => { $("sure").textContent = sentence; }),
   motion: new Newest("api/motion", found => film.set(found), sentence => film.refuse(sentence)),
   pin: new Newest("api/state", found => { s.pin.answer = found; draw(); }, sentence => { s.pin = null; problem(`The pinned design cannot be shown: ${sentence}`); draw(); }),
 };
 
-const body = (values = s.asked || s.values) => ({ ...s.subject, values, along: s.along, range: s.ranges[s.along] });
-
-function problem(sentence) {
-  $("problem").textContent = sentence || "";
-  $("problem").hidden = !sentence;
-}
-
-function status(text) {
-  $("status").textContent = text;
-  clearTimeout(status.timer);
-  if (text) status.timer = setTimeout(() => { $("status").textContent = ""; }, 4000);
-}
+const body = (values = s.asked || s.values) => ({ ...s.subject, values, along: s.along, range: s.ranges[s.along], units: s.units });
 
 // --- changes
 
@@ -93,6 +84,7 @@ function settled() {
   if (x && y) asides.map.push({ ...base, x, y, x_range: s.ranges[x], y_range: s.ranges[y] });
   else plots.map.empty("A map needs two parameters.");
   asides.remedies.push(base);
+  if (s.about.parameters.some(p => p.known)) asides.sure.push(base);
   askMotion();
   if ($("equations").open) loadEquations();
   history.replaceState(null, "", link());
@@ -153,15 +145,20 @@ function motionChoices(modes) {
 }
 
 async function loadEquations() {
-  const key = JSON.stringify([s.subject, s.values]);
+  const key = JSON.stringify([s.subject, s.values, s.units]);
   if ($("derivation").dataset.key === key) return;
   $("derivation").dataset.key = key;
   if (!$("derivation").innerHTML) $("derivation").textContent = "Deriving …";
+  const waiting = wait("Deriving the formulas …");
   try {
     $("derivation").innerHTML = (await ask("api/equations", body(s.values))).html; // made by the server's own template
   } catch (error) {
     if (!(error instanceof Problem)) throw error;
     $("derivation").textContent = error.message;
+    delete $("derivation").dataset.key; // opened again, it is asked again
+  } finally {
+    clearInterval(waiting);
+    status("");
   }
 }
 
@@ -174,7 +171,7 @@ const link = () => write({ v: s.subject.vehicle, toml: s.subject.toml, values: s
 // Show a vehicle; wanted holds what a link asks for. Throws Problem, with the page as it was.
 async function open(subject, wanted = { values: {}, pin: null }) {
   document.documentElement.setAttribute("aria-busy", "true");
-  const waiting = setTimeout(() => { $("status").textContent = "Deriving the equations …"; }, 400);
+  const waiting = wait(`Deriving the equations of ${subject.vehicle || "the vehicle file"}; they are kept for the next time …`);
   try {
     const about = await ask("api/open", subject);
     const names = about.parameters.map(p => p.name);
@@ -184,12 +181,12 @@ async function open(subject, wanted = { values: {}, pin: null }) {
     const along = wanted.along ?? about.along;
     const ranges = Object.fromEntries(about.parameters.map(p => [p.name, p.range]));
     if (wanted.from < wanted.to) ranges[along] = [wanted.from, wanted.to];
-    const request = { ...subject, along, range: ranges[along] };
+    const units = wanted.units || s.units, request = { ...subject, along, range: ranges[along], units };
     const answer = await ask("api/state", { ...request, values: { ...initial, ...wanted.values } });
     const pin = wanted.pin && { values: { ...initial, ...wanted.pin } };
     if (pin) pin.answer = await ask("api/state", { ...request, values: pin.values });
     for (const queue of [follow, ...Object.values(asides)]) queue.forget();
-    Object.assign(s, { subject, about, ranges, along, pin, asked: null, moving: null, box: null, units: wanted.units || s.units,
+    Object.assign(s, { subject, about, ranges, along, pin, asked: null, moving: null, box: null, units,
       parameters: Object.fromEntries(about.parameters.map(p => [p.name, p])),
       map: [wanted.x ?? about.map?.[0], wanted.y ?? about.map?.[1]],
       shown: wanted.disturb === undefined ? "mode" : "disturb", disturb: wanted.disturb ?? about.states[0]?.name,
@@ -200,7 +197,7 @@ async function open(subject, wanted = { values: {}, pin: null }) {
     build();
     answered(answer);
   } finally {
-    clearTimeout(waiting);
+    clearInterval(waiting);
     status("");
     document.documentElement.removeAttribute("aria-busy");
   }
@@ -212,11 +209,13 @@ function build() {
   document.title = `${about.name} – ucrit explorer`;
   $("vehicle").value = s.subject.vehicle || "";
   $("units").value = s.units;
-  $("about").textContent = [about.title, about.source && `Numbers: ${about.source}`, about.note].filter(Boolean).map(t => t.replace(/\.?\s*$/, ".")).join(" ");
+  $("about").textContent = [about.title, about.made && about.made[0].toUpperCase() + about.made.slice(1), about.source && `Numbers: ${about.source}`, about.note].filter(Boolean).map(t => t.replace(/\.?\s*$/, ".")).join(" ");
   $("derivation").innerHTML = "";
   delete $("derivation").dataset.key;
-  $("remedies").textContent = "";
-  plots.map.empty("");
+  $("sure").textContent = "";
+  $("remedies").textContent = "Computing …";
+  plots.map.empty("Computing …");
+  film.refuse("Computing …");
   $("pin").setAttribute("aria-pressed", String(Boolean(s.pin)));
   const options = () => about.parameters.map(p => new Option(`${p.name}, ${p.meaning}`, p.name));
   for (const [id, value] of [["along", s.along], ["map-x", s.map[0]], ["map-y", s.map[1]]]) {
@@ -229,7 +228,7 @@ function build() {
 
 function showRange() {
   const { factor, text } = shownUnit(s.parameters[s.along].unit, s.units);
-  [$("from").value, $("to").value] = s.ranges[s.along].map(v => plain(v * factor, 6));
+  for (const [i, id] of ["from", "to"].entries()) $(id).dataset.shown = $(id).value = plain(s.ranges[s.along][i] * factor, 4);
   $("along-unit").textContent = text;
 }
 
@@ -254,7 +253,7 @@ const restore = () => attempt(async () => {
 $("vehicle").addEventListener("change", () => $("vehicle").value && attempt(() => open({ vehicle: $("vehicle").value.trim() })));
 $("vehicle").addEventListener("focus", () => $("vehicle").select());
 $("units").replaceChildren(...Object.entries(SYSTEMS).map(([key, text]) => new Option(text, key)));
-$("units").addEventListener("change", () => { s.units = $("units").value; build(); for (const plot of Object.values(plots)) plot.zoom = null; answered(s.answer); });
+$("units").addEventListener("change", () => { s.units = $("units").value; build(); plots.map.zoom = null; redo(); });
 $("reset").addEventListener("click", () => { s.asked = Object.fromEntries(s.about.parameters.map(p => [p.name, p.value])); s.moving = null; follow.push(body()); });
 $("pin").addEventListener("click", () => {
   s.pin = s.pin ? null : { values: { ...s.values }, answer: s.answer };
@@ -278,7 +277,8 @@ function redo() {
 }
 $("along").addEventListener("change", () => { s.along = $("along").value; redo(); });
 for (const id of ["from", "to"]) $(id).addEventListener("change", () => {
-  const { factor } = shownUnit(s.parameters[s.along].unit, s.units), ends = ["from", "to"].map(k => Number($(k).value.replace("−", "-")) / factor);
+  const { factor } = shownUnit(s.parameters[s.along].unit, s.units), now = s.ranges[s.along];
+  const ends = ["from", "to"].map((k, i) => $(k).value === $(k).dataset.shown ? now[i] : Number($(k).value.replace("−", "-")) / factor);
   if (!(ends[0] < ends[1])) { problem("The range needs two rising numbers."); return showRange(); }
   s.ranges[s.along] = ends;
   redo();
@@ -296,18 +296,12 @@ $("motion").addEventListener("change", () => {
   settled();
 });
 $("equations").addEventListener("toggle", () => $("equations").open && loadEquations());
-$("load").addEventListener("click", () => { $("dialog-problem").textContent = ""; $("dialog").showModal(); });
-$("dialog-close").addEventListener("click", () => $("dialog").close());
-$("file").addEventListener("change", async () => { if ($("file").files[0]) $("text").value = (await $("file").files[0].slice(0, 100000).text()); });
-$("dialog-open").addEventListener("click", async () => {
-  try {
-    await open({ toml: $("text").value });
-    $("dialog").close();
-    problem("");
-  } catch (error) {
-    if (!(error instanceof Problem)) throw error;
-    $("dialog-problem").textContent = error.message;
-  }
+fileDialog(async () => s.subject ? (await request("api/download", { ...body(s.values), kind: "toml" })).text() : "",
+  text => open({ toml: text }));
+$("downloads").addEventListener("keydown", event => {
+  if (event.key !== "Escape") return;
+  $("downloads").open = false;
+  $("downloads").querySelector("summary").focus();
 });
 document.addEventListener("click", event => { if (!$("downloads").contains(event.target)) $("downloads").open = false; });
 addEventListener("hashchange", () => { if (!s.subject || location.hash !== link()) restore(); });

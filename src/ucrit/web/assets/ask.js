@@ -1,7 +1,7 @@
 // Asking the server. One request of a kind is in flight; of those that wait, only the newest is sent.
 export class Problem extends Error {}
 
-async function request(path, body) {
+export async function request(path, body) {
   let response;
   try {
     response = await fetch(path, body && {

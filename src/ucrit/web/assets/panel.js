@@ -3,6 +3,12 @@ import { plain, quantity, roundStep, shownUnit } from "./units.js";
 
 const STEPS = 400;
 
+function knownWords({ known: { sd, range }, unit }, value, system) {
+  const say = v => quantity(v, unit, system);
+  if (range && !(range[0] <= value && value <= range[1])) return `outside of the file's ${say(range[0])} to ${say(range[1])}`;
+  return [sd && `standard deviation ${say(sd)}`, range && `between ${say(range[0])} and ${say(range[1])}`].filter(Boolean).join(", ");
+}
+
 export class Panel {
   // changed(name, value): a number in SI, or a text with a unit, which the server reads
   constructor(form, changed) {
@@ -19,15 +25,17 @@ export class Panel {
       <input type="text" id="n${i}" class="exact" inputmode="decimal" autocomplete="off" spellcheck="false" aria-describedby="u${i} e${i}">
       <span class="unit" id="u${i}"></span>
       <button type="button" class="undo" hidden>↺</button>
+      <p class="known" hidden></p>
       <p class="wrong" id="e${i}" role="alert"></p></div>`).join("");
     parameters.forEach((about, i) => this.row(about, this.form.children[i], ranges[about.name], i));
   }
 
   row(about, element, range, i) {
     const [slider, field] = element.querySelectorAll("input"), undo = element.querySelector("button");
-    const row = { about, element, slider, field, undo, range: [...range], unit: shownUnit(about.unit, this.system) };
+    const known = element.querySelector(".known"), row = { about, element, known, slider, field, undo, range: [...range], unit: shownUnit(about.unit, this.system) };
     element.querySelector(".meaning").textContent = about.meaning;
     element.querySelector(".unit").textContent = row.unit.text;
+    known.hidden = !about.known;
     slider.setAttribute("aria-label", `${about.meaning} ${about.name}, slider`);
     field.setAttribute("aria-label", `${about.meaning} ${about.name}, exact value${row.unit.text ? " in " + row.unit.text : ""}`);
     field.title = `${about.allowed}; another unit may stand behind the number`;
@@ -71,6 +79,7 @@ export class Panel {
       row.slider.setAttribute("aria-valuetext", quantity(value, row.about.unit, this.system, 6));
       row.written = plain(value * row.unit.factor, 9);
       row.field.value = row.written;
+      if (row.about.known) row.known.textContent = knownWords(row.about, value, this.system);
       row.undo.hidden = value === row.about.value;
       row.element.classList.toggle("moved", value !== row.about.value);
       this.mend(row);

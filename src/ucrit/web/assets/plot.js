@@ -31,6 +31,7 @@ export class Plot {
   }
 
   set(content) {
+    if (!this.content) this.readout.textContent = "";
     this.content = content;
     this.draw();
   }
@@ -60,7 +61,7 @@ export class Plot {
     const box = `x="${MARGIN.left}" y="${MARGIN.top}" width="${right - MARGIN.left}" height="${bottom - MARGIN.top}"`;
     this.svg.setAttribute("viewBox", `0 0 ${this.width} ${this.height}`);
     this.svg.setAttribute("height", this.height);
-    this.svg.setAttribute("aria-label", `${this.label}. ${c.told || ""} Arrow keys read points, plus and minus zoom.`);
+    this.svg.setAttribute("aria-label", `${this.label}. ${c.told || ""} Arrow keys read points, plus and minus zoom, Shift with arrows moves the view.`);
     this.svg.innerHTML = `<defs><clipPath id="${this.clip}"><rect ${box}/></clipPath></defs>` +
       `<g clip-path="url(#${this.clip})">${(c.bands || []).map(b => this.band(b, bottom)).join("")}</g>` +
       this.axes(c, right, bottom) +
@@ -175,6 +176,12 @@ export class Plot {
     });
     svg.addEventListener("pointerleave", event => { if (event.pointerType === "mouse") { start = null; this.quiet(); } });
     svg.addEventListener("dblclick", () => this.all());
+    svg.addEventListener("wheel", event => { // with Ctrl, which is also what a pinch on a touchpad sends: the page scrolls without
+      if (!event.ctrlKey || !this.content) return;
+      event.preventDefault();
+      const [p, q] = place(event);
+      this.scale(1.002 ** event.deltaY, [this.qx(p), this.qy(q)]);
+    }, { passive: false });
     svg.addEventListener("keydown", event => this.key(event));
     svg.addEventListener("blur", () => this.quiet());
   }
@@ -192,7 +199,8 @@ export class Plot {
 
   key(event) {
     const lines = (this.content?.lines || []).filter(l => l.tip);
-    const act = {
+    const [side, rise] = { ArrowRight: [1, 0], ArrowLeft: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] }[event.key] || [];
+    const act = event.shiftKey && side !== undefined ? () => this.pan(side, rise) : {
       "+": () => this.scale(1 / 1.5), "=": () => this.scale(1 / 1.5), "-": () => this.scale(1.5), 0: () => this.all(), Escape: () => this.all(),
       ArrowRight: () => this.step(lines, 0, 1), ArrowLeft: () => this.step(lines, 0, -1),
       ArrowUp: () => this.step(lines, 1, 0), ArrowDown: () => this.step(lines, -1, 0),
@@ -241,10 +249,23 @@ export class Plot {
     this.readout.textContent = "";
   }
 
-  scale(factor) {
+  // Zoom about a place: by default the point that is read, or else the middle.
+  scale(factor, place = this.read() || [(this.x[0] + this.x[1]) / 2, (this.y[0] + this.y[1]) / 2]) {
     if (!this.content) return;
-    const about = ([a, b]) => { const m = (a + b) / 2; return [m + (a - m) * factor, m + (b - m) * factor]; };
-    this.zoom = { x: about(this.x), y: about(this.y) };
+    const [x, y] = [this.x, this.y].map((range, i) => range.map(end => place[i] + (end - place[i]) * factor));
+    this.zoom = { x, y };
+    this.draw();
+  }
+
+  read() {
+    const line = this.cursor && this.content?.lines[this.cursor.line];
+    return line && [line.x[this.cursor.index], line.y[this.cursor.index]];
+  }
+
+  pan(side, rise) {
+    if (!this.content) return;
+    const moved = ([a, b], part) => [a, b].map(end => end + part * 0.2 * (b - a));
+    this.zoom = { x: moved(this.x, side), y: moved(this.y, rise) };
     this.draw();
   }
 

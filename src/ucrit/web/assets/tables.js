@@ -24,16 +24,18 @@ export function modeRows(body, modes) {
     head.scope = "row";
     head.textContent = mode.name;
     row.append(head);
-    cell(row, `${read(mode.re)}${mode.im ? ` ± ${read(mode.im)} i` : ""}`, "n").dataset.value = `${mode.re} ${mode.im}`;
+    cell(row, `${read(mode.re)}${mode.im ? ` ±\u00a0${read(mode.im)}\u00a0i` : ""}`, "n").dataset.value = `${mode.re} ${mode.im}`;
     cell(row, mode.im ? read(mode.frequency_hz) : "–", "n");
     cell(row, mode.im ? read(mode.damping_ratio, 3) : "–", "n");
-    cell(row, mode.time_to_double !== null ? `doubles in ${read(mode.time_to_double, 3)} s`
-      : mode.time_to_half !== null ? `halves in ${read(mode.time_to_half, 3)} s` : "stays", mode.re > 0 ? "grows" : "");
+    cell(row, mode.time_to_double !== null ? `doubles in ${read(mode.time_to_double, 3)}\u00a0s`
+      : mode.time_to_half !== null ? `halves in ${read(mode.time_to_half, 3)}\u00a0s` : "stays", mode.re > 0 ? "grows" : "");
   }
 }
 
 export function remedyList(host, found, system, apply) {
+  const held = host.contains(document.activeElement); // a click on a remedy replaces it; the keyboard stays here
   host.replaceChildren();
+  if (held) host.focus();
   const say = text => host.append(Object.assign(document.createElement("p"), { textContent: text }));
   if (found.stable) return say("Nothing needs changing for this speed.");
   if (!found.remedies.length) return say("No change of one parameter alone makes it stable.");
