@@ -102,6 +102,7 @@ OTHERS = {
     "list": lambda v: ucrit.list("vehicles"),
     "steady turn": lambda v: ucrit.steady_turn(dressed("understeering-car")),
     "static": lambda v: ucrit.static_stability(dressed("understeering-car")),
+    "percussion": lambda v: ucrit.percussion(dressed("bmw-320i"), "delta_f"),
     "margin": lambda v: ucrit.static_margin(dressed("model-glider")),
     "rollover": lambda v: ucrit.rollover(dressed("four-wheel-car")),
     "approximation": lambda v: ucrit.approximation(v, v),

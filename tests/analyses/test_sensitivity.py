@@ -37,8 +37,11 @@ def exact_slopes(vehicle, parameter):
         return np.array([complex(s) for s in roots]), np.array([complex(x) for x in changes])
 
 
-# The wheels of the four-wheel car share an eigenvalue: slopes of double roots do not exist.
-@pytest.mark.parametrize("name", [name for name in vehicle_names() if name != "four-wheel-car"])
+# The wheels of a car on four wheels share an eigenvalue: slopes of double roots do not exist.
+ONE_BY_ONE = [name for name in vehicle_names() if "omega_fl" not in type(load(name)).declaration.variables]
+
+
+@pytest.mark.parametrize("name", ONE_BY_ONE)
 def test_slopes_of_all_eigenvalues_of_all_vehicles(name):
     vehicle = load(name)
     found = sensitivity(vehicle)

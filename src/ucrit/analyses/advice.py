@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from decimal import ROUND_CEILING, ROUND_FLOOR, ROUND_HALF_EVEN, Decimal
+from decimal import Decimal
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +11,7 @@ import numpy as np
 from ..core.compiled import deciding_coefficients
 from ..core.possible import allowed
 from ..numerics.hurwitz import stable
+from .digits import decimal_text, rounded
 from .remedies import SPEEDS, Remedy
 
 if TYPE_CHECKING:
@@ -70,21 +71,3 @@ def _helps(found: Analysis, parameter: str, value: float) -> bool:
     if name is not None and found.speed is not None:
         changes[name] = found.speed * np.linspace(0, 1, SPEEDS + 1)[1:]
     return bool(np.all(stable(deciding_coefficients(found.vehicle.with_(**changes)))))
-
-
-def rounded(value: float, digits: int, sense: int) -> Decimal:
-    """Round to significant digits: up for a positive sense, down for a negative one, to nearest for 0."""
-    exact = Decimal(value)
-    if not exact:
-        return Decimal(0)
-    place = Decimal(1).scaleb(exact.adjusted() - digits + 1)
-    how = {1: ROUND_CEILING, -1: ROUND_FLOOR, 0: ROUND_HALF_EVEN}[sense]
-    return (exact / place).to_integral_value(how) * place
-
-
-def decimal_text(value: Decimal) -> str:
-    """Return a rounded number as text that reads back as the same number, without an exponent where that is short."""
-    if value and not -5 <= value.adjusted() <= 6:
-        return f"{value.normalize():e}".replace("E", "e")
-    text = f"{value:f}"
-    return text.rstrip("0").rstrip(".") if "." in text else text

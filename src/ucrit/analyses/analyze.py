@@ -105,8 +105,9 @@ class Analysis:
 
     def _repr_html_(self) -> str:
         from . import notebook
+        from .advice import advice
 
-        return notebook.analysis(self)
+        return notebook.analysis(self, [advice(r, self) for r in self.remedies if r.value is not None])
 
 
 def analyze(

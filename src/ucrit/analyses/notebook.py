@@ -8,8 +8,10 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ..core.html import lines, math_of, quantity, table, text, with_unit
+from .digits import decimal_text, rounded
 
 if TYPE_CHECKING:
+    from .advice import Advice
     from .analyze import Analysis
     from .convert import Table, Tabular
     from .criteria import Boundary, Criteria
@@ -103,11 +105,11 @@ def critical_values(found: CriticalValues) -> str:
     return critical(found.values, f"Critical values of {found.parameter}: {name_of(found.vehicle)}")
 
 
-def remedies(found: Sequence[Remedy], of: Analysis | None = None) -> str:
-    """Return remedies, a row each; values are rounded to the side that helps, those of an analysis to few digits."""
+def remedies(found: Sequence[Remedy], advised: Sequence[Advice] = ()) -> str:
+    """Return remedies, a row each, their values rounded to the side that helps; or as an analysis advises them."""
     rows = []
-    for r in found:
-        word, value, change = (*r.told(), r.relative) if of is None or r.value is None else advice_of(r, of)
+    for r, advice in itertools.zip_longest(found, advised):
+        word, value, change = (advice.word, advice.text, advice.relative) if advice else (*r.told(), r.relative)
         share = "" if r.value is None or change is None else percent(change)
         unit = "" if r.unit == "1" or r.value is None else f" {r.unit}"
         rows.append((r.parameter, word, f"{value}{unit}", quantity(r.present, r.unit), share, r.meaning))
@@ -122,19 +124,9 @@ def percent(share: float) -> str:
     >>> percent(1.2613), percent(-0.0544)
     ('+130 %', '-5.4 %')
     """
-    from .advice import decimal_text, rounded
-
     if not math.isfinite(share):
         return ""
     return f"{'+' if share > 0 else ''}{decimal_text(rounded(100 * share, 2, 0))} %"
-
-
-def advice_of(found: Remedy, of: Analysis) -> tuple[str, str, float | None]:
-    """Return a remedy's word, value and relative change as the command line prints them."""
-    from .advice import advice
-
-    told = advice(found, of)
-    return told.word, told.text, told.relative
 
 
 def verdict(found: Verdict) -> str:
@@ -176,13 +168,13 @@ def stability_map(found: StabilityMap) -> str:
     return facts + image(found.stable, f"Stable points are green; {across} to the right, {up} upwards")
 
 
-def analysis(found: Analysis) -> str:
+def analysis(found: Analysis, advised: Sequence[Advice]) -> str:
     """Return the verdict, then modes, critical speeds, criteria and remedies."""
     parts = [f"<p><b>{text(name_of(found.vehicle))}</b>: {text(found.sentence)}</p>", modes(found.modes, "Modes")]
     if found.critical:
         parts.append(critical_values(found.critical))
     if found.criteria is not None:
         parts.append(criteria(found.criteria))
-    if helpful := [r for r in found.remedies if r.value is not None]:
-        parts.append(remedies(helpful, found))
+    if advised:
+        parts.append(remedies([r for r in found.remedies if r.value is not None], advised))
     return "".join(parts)

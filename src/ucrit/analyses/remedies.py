@@ -17,6 +17,7 @@ from ..core.possible import allowed
 from ..numerics.hurwitz import stable
 from .convert import Series, Table, Tabular
 from .critical import critical
+from .digits import decimal_text, rounded
 
 Array = npt.NDArray[Any]
 
@@ -60,8 +61,6 @@ class Remedy:
 
     def told(self) -> tuple[str, str]:
         """Return ``"at least"`` or ``"at most"``, and six digits of the value, rounded to the side that helps."""
-        from .advice import decimal_text, rounded
-
         if self.value is None:
             return "no value helps", ""
         rising = self.value > self.present
