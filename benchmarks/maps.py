@@ -11,8 +11,8 @@ import numpy as np
 
 from benchmarks.timing import Row, compared, interleaved
 from ucrit import UcritError, boundary, find_model, stability_map, stable_matrices
-from ucrit.analyses.grids import Grid
-from ucrit.analyses.judge import on_device, tiles_of
+from ucrit.analyses.stability.grids import Grid
+from ucrit.analyses.stability.judge import on_device, tiles_of
 from ucrit.core.compiled import state_space
 from ucrit.core.kernels import needed
 

@@ -6,7 +6,7 @@ import numpy as np
 from chapters import curve, figure_with_axes, save
 
 from ucrit import SineWithDwell, dwell_criteria, load, simulate
-from ucrit.analyses.scene import scene
+from ucrit.analyses.motion.scene import scene
 from ucrit.plots import style
 
 BARE, CAR = load("car-on-worn-rear-tires"), load("car-with-stability-control")

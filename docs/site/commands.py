@@ -4,7 +4,7 @@ import os
 
 import markup
 
-from ucrit.analyses.cite import cite
+from ucrit.analyses.about.cite import cite
 from ucrit.catalogue import controller_names, find_controller, find_part, part_names, tire_file, tire_names
 from ucrit.cli.app import COMMANDS, cli
 from ucrit.parts.tires import Tire

@@ -7,71 +7,71 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
-    from .analyses.analyze import analyze as analyze
-    from .analyses.approximation import approximation as approximation
-    from .analyses.audit import audit as audit
-    from .analyses.basin import basin as basin
-    from .analyses.bonds import bonds as bonds
-    from .analyses.boundary import boundary as boundary
-    from .analyses.certify import certify as certify
-    from .analyses.cite import cite as cite
-    from .analyses.compare import compare as compare
-    from .analyses.convert import to_control as to_control
-    from .analyses.convert import to_scipy as to_scipy
-    from .analyses.criteria import criteria as criteria
-    from .analyses.critical import critical as critical
-    from .analyses.cycles import limit_cycles as cycles  # noqa: F401
-    from .analyses.cycles import limit_cycles as limit_cycles
-    from .analyses.delays import simulate_delayed as simulate_delayed
-    from .analyses.dwell import dwell_criteria as dwell_criteria
-    from .analyses.forms import Descriptor as Descriptor
-    from .analyses.forms import NthOrder as NthOrder
-    from .analyses.forms import SecondOrder as SecondOrder
-    from .analyses.forms import StateSpace as StateSpace
-    from .analyses.forms import forms as forms
-    from .analyses.handling import handling_diagram as handling  # noqa: F401
-    from .analyses.handling import handling_diagram as handling_diagram
-    from .analyses.laws import describe_controller as describe_controller
-    from .analyses.lazy import lazy as lazy
-    from .analyses.limits import limit as limit
-    from .analyses.listing import listing as list  # noqa: F401
-    from .analyses.listing import template as new  # noqa: F401
-    from .analyses.locus import locus as locus
-    from .analyses.manoeuvres import Gust as Gust
-    from .analyses.manoeuvres import Measured as Measured
-    from .analyses.manoeuvres import Pulse as Pulse
-    from .analyses.manoeuvres import Ramp as Ramp
-    from .analyses.manoeuvres import Sine as Sine
-    from .analyses.manoeuvres import SineWithDwell as SineWithDwell
-    from .analyses.manoeuvres import Step as Step
-    from .analyses.margins import margins as margins
-    from .analyses.modes import modes as modes
-    from .analyses.percussion import percussion as percussion
-    from .analyses.pitching import moment_line as moment_line
-    from .analyses.pitching import static_margin as static_margin
-    from .analyses.power_flow import power_flow as power_flow
-    from .analyses.remedies import remedies as remedies
-    from .analyses.response import frequency_response as frequency_response
-    from .analyses.response import impulse_response as impulse_response
-    from .analyses.response import step_response as step_response
-    from .analyses.rollover import rollover as rollover
-    from .analyses.routh import routh as routh
-    from .analyses.sensitivity import sensitivity as sensitivity
-    from .analyses.show import show as show
-    from .analyses.simulate import simulate as simulate
-    from .analyses.stability_map import stability_map as stability_map
-    from .analyses.static import static_stability as static_stability
-    from .analyses.steady import axle_loads as axle_loads
-    from .analyses.steady import steady_turn as steady_turn
-    from .analyses.steady_family import steady_family as steady_family
-    from .analyses.stream import stream as stream
-    from .analyses.sweep import sweep as sweep
-    from .analyses.tire_curves import cornering_coefficient as cornering_coefficient
-    from .analyses.tire_curves import tire_curves as tire_curves
-    from .analyses.transfer import transfer as transfer
-    from .analyses.trim import trim as trim
-    from .analyses.uncertainty import uncertainty as uncertainty
-    from .analyses.verdict import verdict as verdict
+    from .analyses.stability.analyze import analyze as analyze
+    from .analyses.stability.approximation import approximation as approximation
+    from .analyses.motion.audit import audit as audit
+    from .analyses.nonlinear.basin import basin as basin
+    from .analyses.about.bonds import bonds as bonds
+    from .analyses.regions.boundary import boundary as boundary
+    from .analyses.regions.certify import certify as certify
+    from .analyses.about.cite import cite as cite
+    from .analyses.stability.compare import compare as compare
+    from .analyses.results.convert import to_control as to_control
+    from .analyses.results.convert import to_scipy as to_scipy
+    from .analyses.stability.criteria import criteria as criteria
+    from .analyses.stability.critical import critical as critical
+    from .analyses.nonlinear.cycles import limit_cycles as cycles  # noqa: F401
+    from .analyses.nonlinear.cycles import limit_cycles as limit_cycles
+    from .analyses.motion.delays import simulate_delayed as simulate_delayed
+    from .analyses.motion.dwell import dwell_criteria as dwell_criteria
+    from .analyses.linear.forms import Descriptor as Descriptor
+    from .analyses.linear.forms import NthOrder as NthOrder
+    from .analyses.linear.forms import SecondOrder as SecondOrder
+    from .analyses.linear.forms import StateSpace as StateSpace
+    from .analyses.linear.forms import forms as forms
+    from .analyses.nonlinear.handling import handling_diagram as handling  # noqa: F401
+    from .analyses.nonlinear.handling import handling_diagram as handling_diagram
+    from .analyses.about.laws import describe_controller as describe_controller
+    from .analyses.regions.lazy import lazy as lazy
+    from .analyses.stability.limits import limit as limit
+    from .analyses.about.listing import listing as list  # noqa: F401
+    from .analyses.about.listing import template as new  # noqa: F401
+    from .analyses.stability.locus import locus as locus
+    from .analyses.motion.manoeuvres import Gust as Gust
+    from .analyses.motion.manoeuvres import Measured as Measured
+    from .analyses.motion.manoeuvres import Pulse as Pulse
+    from .analyses.motion.manoeuvres import Ramp as Ramp
+    from .analyses.motion.manoeuvres import Sine as Sine
+    from .analyses.motion.manoeuvres import SineWithDwell as SineWithDwell
+    from .analyses.motion.manoeuvres import Step as Step
+    from .analyses.linear.margins import margins as margins
+    from .analyses.linear.modes import modes as modes
+    from .analyses.linear.percussion import percussion as percussion
+    from .analyses.stability.pitching import moment_line as moment_line
+    from .analyses.stability.pitching import static_margin as static_margin
+    from .analyses.motion.power_flow import power_flow as power_flow
+    from .analyses.stability.remedies import remedies as remedies
+    from .analyses.linear.response import frequency_response as frequency_response
+    from .analyses.linear.response import impulse_response as impulse_response
+    from .analyses.linear.response import step_response as step_response
+    from .analyses.nonlinear.rollover import rollover as rollover
+    from .analyses.stability.routh import routh as routh
+    from .analyses.stability.sensitivity import sensitivity as sensitivity
+    from .analyses.about.show import show as show
+    from .analyses.motion.simulate import simulate as simulate
+    from .analyses.regions.stability_map import stability_map as stability_map
+    from .analyses.stability.static import static_stability as static_stability
+    from .analyses.linear.steady import axle_loads as axle_loads
+    from .analyses.linear.steady import steady_turn as steady_turn
+    from .analyses.nonlinear.steady_family import steady_family as steady_family
+    from .analyses.regions.stream import stream as stream
+    from .analyses.regions.sweep import sweep as sweep
+    from .analyses.nonlinear.tire_curves import cornering_coefficient as cornering_coefficient
+    from .analyses.nonlinear.tire_curves import tire_curves as tire_curves
+    from .analyses.linear.transfer import transfer as transfer
+    from .analyses.linear.trim import trim as trim
+    from .analyses.regions.uncertainty import uncertainty as uncertainty
+    from .analyses.stability.verdict import verdict as verdict
     from .catalogue import find_model as find_model
     from .catalogue import load as load
     from .catalogue import tire as tire
@@ -113,71 +113,71 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "load": "catalogue",
     "find_model": "catalogue",
     "tire": "catalogue",
-    "analyze": "analyses.analyze",
-    "criteria": "analyses.criteria",
-    "critical": "analyses.critical",
-    "locus": "analyses.locus",
-    "modes": "analyses.modes",
-    "remedies": "analyses.remedies",
-    "sensitivity": "analyses.sensitivity",
-    "stability_map": "analyses.stability_map",
-    "sweep": "analyses.sweep",
-    "to_control": "analyses.convert",
-    "to_scipy": "analyses.convert",
-    "verdict": "analyses.verdict",
-    "approximation": "analyses.approximation",
-    "audit": "analyses.audit",
-    "axle_loads": "analyses.steady",
-    "certify": "analyses.certify",
-    "basin": "analyses.basin",
-    "cornering_coefficient": "analyses.tire_curves",
-    "boundary": "analyses.boundary",
-    "cite": "analyses.cite",
-    "compare": "analyses.compare",
-    "cycles": ("analyses.cycles", "limit_cycles"),
-    "frequency_response": "analyses.response",
-    "impulse_response": "analyses.response",
-    "step_response": "analyses.response",
-    "Descriptor": "analyses.forms",
-    "NthOrder": "analyses.forms",
-    "SecondOrder": "analyses.forms",
-    "StateSpace": "analyses.forms",
-    "forms": "analyses.forms",
-    "lazy": "analyses.lazy",
-    "handling": ("analyses.handling", "handling_diagram"),
-    "handling_diagram": "analyses.handling",
-    "limit": "analyses.limits",
-    "limit_cycles": "analyses.cycles",
-    "percussion": "analyses.percussion",
-    "moment_line": "analyses.pitching",
-    "static_margin": "analyses.pitching",
-    "dwell_criteria": "analyses.dwell",
-    "rollover": "analyses.rollover",
-    "routh": "analyses.routh",
-    "simulate": "analyses.simulate",
-    "margins": "analyses.margins",
-    "simulate_delayed": "analyses.delays",
-    "describe_controller": "analyses.laws",
-    "Step": "analyses.manoeuvres",
-    "Ramp": "analyses.manoeuvres",
-    "Sine": "analyses.manoeuvres",
-    "SineWithDwell": "analyses.manoeuvres",
-    "Pulse": "analyses.manoeuvres",
-    "Gust": "analyses.manoeuvres",
-    "Measured": "analyses.manoeuvres",
-    "static_stability": "analyses.static",
-    "steady_family": "analyses.steady_family",
-    "steady_turn": "analyses.steady",
-    "tire_curves": "analyses.tire_curves",
-    "transfer": "analyses.transfer",
-    "stream": "analyses.stream",
-    "trim": "analyses.trim",
-    "uncertainty": "analyses.uncertainty",
-    "bonds": "analyses.bonds",
-    "power_flow": "analyses.power_flow",
-    "show": "analyses.show",
-    "list": ("analyses.listing", "listing"),
-    "new": ("analyses.listing", "template"),
+    "analyze": "analyses.stability.analyze",
+    "criteria": "analyses.stability.criteria",
+    "critical": "analyses.stability.critical",
+    "locus": "analyses.stability.locus",
+    "modes": "analyses.linear.modes",
+    "remedies": "analyses.stability.remedies",
+    "sensitivity": "analyses.stability.sensitivity",
+    "stability_map": "analyses.regions.stability_map",
+    "sweep": "analyses.regions.sweep",
+    "to_control": "analyses.results.convert",
+    "to_scipy": "analyses.results.convert",
+    "verdict": "analyses.stability.verdict",
+    "approximation": "analyses.stability.approximation",
+    "audit": "analyses.motion.audit",
+    "axle_loads": "analyses.linear.steady",
+    "certify": "analyses.regions.certify",
+    "basin": "analyses.nonlinear.basin",
+    "cornering_coefficient": "analyses.nonlinear.tire_curves",
+    "boundary": "analyses.regions.boundary",
+    "cite": "analyses.about.cite",
+    "compare": "analyses.stability.compare",
+    "cycles": ("analyses.nonlinear.cycles", "limit_cycles"),
+    "frequency_response": "analyses.linear.response",
+    "impulse_response": "analyses.linear.response",
+    "step_response": "analyses.linear.response",
+    "Descriptor": "analyses.linear.forms",
+    "NthOrder": "analyses.linear.forms",
+    "SecondOrder": "analyses.linear.forms",
+    "StateSpace": "analyses.linear.forms",
+    "forms": "analyses.linear.forms",
+    "lazy": "analyses.regions.lazy",
+    "handling": ("analyses.nonlinear.handling", "handling_diagram"),
+    "handling_diagram": "analyses.nonlinear.handling",
+    "limit": "analyses.stability.limits",
+    "limit_cycles": "analyses.nonlinear.cycles",
+    "percussion": "analyses.linear.percussion",
+    "moment_line": "analyses.stability.pitching",
+    "static_margin": "analyses.stability.pitching",
+    "dwell_criteria": "analyses.motion.dwell",
+    "rollover": "analyses.nonlinear.rollover",
+    "routh": "analyses.stability.routh",
+    "simulate": "analyses.motion.simulate",
+    "margins": "analyses.linear.margins",
+    "simulate_delayed": "analyses.motion.delays",
+    "describe_controller": "analyses.about.laws",
+    "Step": "analyses.motion.manoeuvres",
+    "Ramp": "analyses.motion.manoeuvres",
+    "Sine": "analyses.motion.manoeuvres",
+    "SineWithDwell": "analyses.motion.manoeuvres",
+    "Pulse": "analyses.motion.manoeuvres",
+    "Gust": "analyses.motion.manoeuvres",
+    "Measured": "analyses.motion.manoeuvres",
+    "static_stability": "analyses.stability.static",
+    "steady_family": "analyses.nonlinear.steady_family",
+    "steady_turn": "analyses.linear.steady",
+    "tire_curves": "analyses.nonlinear.tire_curves",
+    "transfer": "analyses.linear.transfer",
+    "stream": "analyses.regions.stream",
+    "trim": "analyses.linear.trim",
+    "uncertainty": "analyses.regions.uncertainty",
+    "bonds": "analyses.about.bonds",
+    "power_flow": "analyses.motion.power_flow",
+    "show": "analyses.about.show",
+    "list": ("analyses.about.listing", "listing"),
+    "new": ("analyses.about.listing", "template"),
     "check": ("checks", "check_model"),
     "check_model": "checks",
     "animate": "plots",

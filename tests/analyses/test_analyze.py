@@ -141,7 +141,7 @@ def test_modes_of_one_name_are_told_apart():
 def test_participation_does_not_depend_on_units():
     first = modes(load("caravan")).participation
     scale = np.diag([1e3, 1e3, 1.0, 1.0])
-    from ucrit.analyses.modes import _participation
+    from ucrit.analyses.linear.modes import _participation
     from ucrit.core.compiled import state_space
 
     A = state_space(load("caravan")).A

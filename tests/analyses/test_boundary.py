@@ -8,13 +8,13 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ucrit import Model, UcritError, boundary, coordinate, critical, find_model, load, param, plot, stability_map
-from ucrit.analyses.modes import eigenvalues
+from ucrit.analyses.linear.modes import eigenvalues
 
 UNDAMPED = {"m": 1000, "a": 1.5, "I_c": 1800, "U": 25, "C": 5e4, "b": 1, "k": 1e4}
 
 
-module = importlib.import_module("ucrit.analyses.boundary")
-lattice = importlib.import_module("ucrit.analyses.lattice")
+module = importlib.import_module("ucrit.analyses.regions.boundary")
+lattice = importlib.import_module("ucrit.analyses.regions.lattice")
 
 
 def cells_of_grid(vehicle, result):

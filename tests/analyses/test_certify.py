@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ucrit import Model, UcritError, certify, coordinate, critical, find_model, load, param
-from ucrit.analyses.exact_ranges import exact_range
+from ucrit.analyses.regions.exact_ranges import exact_range
 from ucrit.catalogue import vehicle_names
 from ucrit.core.compiled import compiled, direction
 from ucrit.numerics.routh import routh

@@ -8,7 +8,7 @@ import pytest
 
 import ucrit
 from ucrit import UcritError, cite, find_model, load
-from ucrit.analyses.bibliography import KINDS, _content, works, works_in
+from ucrit.analyses.about.bibliography import KINDS, _content, works, works_in
 from ucrit.catalogue import HERE, controller_names, model_names, tire_names, vehicle_names
 
 ROOT = Path(__file__).parents[2]

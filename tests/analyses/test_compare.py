@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ucrit import UcritError, critical, load, modes, verdict
-from ucrit.analyses.compare import compare
-from ucrit.analyses.static_term import static_term
+from ucrit.analyses.stability.compare import compare
+from ucrit.analyses.stability.static_term import static_term
 from ucrit.catalogue import vehicle_names
 from ucrit.core.compiled import compiled
 

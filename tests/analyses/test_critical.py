@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ucrit import Model, UcritError, critical, find_model, load, modes, param, speed, state
-from ucrit.analyses.scan import scan
+from ucrit.analyses.stability.scan import scan
 from ucrit.catalogue import vehicle_names
 from ucrit.core.compiled import coefficients, compiled, direction
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from ucrit import UcritError, basin, check_model, critical, find_model, limit_cycles, load, modes, plot, simulate
-from ucrit.analyses.cycle_words import expectation
+from ucrit.analyses.nonlinear.cycle_words import expectation
 from ucrit.plots import plot_cycles
 
 MODELS = ("nose-gear", "trailer-handling", "caster-handling", "wheelset-flange")
@@ -162,7 +162,7 @@ def test_the_worn_wheelset_hunts_between_its_flanges():
 
 
 def test_the_basin_is_where_simulations_part(monkeypatch):
-    monkeypatch.setattr(importlib.import_module("ucrit.analyses.basin"), "ROUNDS", 1)
+    monkeypatch.setattr(importlib.import_module("ucrit.analyses.nonlinear.basin"), "ROUNDS", 1)
     vehicle = load("caravan-with-stabiliser", {"U": 24})
     told = []
     found = basin(vehicle, "theta'", followed("caravan-with-stabiliser"), progress=lambda *done: told.append(done))

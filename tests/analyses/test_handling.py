@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ucrit import UcritError, handling_diagram, load, plots, rollover, steady_turn
-from ucrit.analyses.handling_words import sentences
+from ucrit.analyses.nonlinear.handling_words import sentences
 
 
 @pytest.fixture(scope="module")

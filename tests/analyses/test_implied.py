@@ -4,7 +4,7 @@ import pytest
 import sympy as sp
 
 from ucrit import criteria, find_model
-from ucrit.analyses.implied import implied
+from ucrit.analyses.stability.implied import implied
 
 
 def polynomials(*texts):

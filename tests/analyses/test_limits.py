@@ -7,7 +7,7 @@ import pytest
 import sympy as sp
 
 from ucrit import UcritError, find_model, load, modes
-from ucrit.analyses.limits import limit
+from ucrit.analyses.stability.limits import limit
 from ucrit.core.derive import symbolic
 from ucrit.core.limits import limit_polynomial
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from ucrit import Gust, Measured, Pulse, Ramp, Sine, SineWithDwell, Step, UcritError, load, simulate
-from ucrit.analyses.manoeuvre_text import SHAPES, parse_shape
-from ucrit.analyses.manoeuvres import Shape
+from ucrit.analyses.motion.manoeuvre_text import SHAPES, parse_shape
+from ucrit.analyses.motion.manoeuvres import Shape
 from ucrit.core.declare import input
 
 QUANTITY = input("rad", "steer angle")

@@ -3,7 +3,7 @@
 import pytest
 
 from ucrit import load, simulate
-from ucrit.analyses.motion_summary import tendency, tendency_text
+from ucrit.analyses.motion.motion_summary import tendency, tendency_text
 
 
 def goes_on(name, changes, until, initial, **inputs):

@@ -19,8 +19,8 @@ from scipy.io import loadmat
 
 import ucrit
 from ucrit import UcritError, load
-from ucrit.analyses.convert import Tabular
-from ucrit.analyses.thumbnail import png
+from ucrit.analyses.results.convert import Tabular
+from ucrit.analyses.results.thumbnail import png
 from ucrit.bondgraph import BondGraphModel, C, Graph, I, one
 from ucrit.core import html
 

@@ -5,7 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ucrit import UcritError, analyze, critical, load, modes, remedies, verdict
-from ucrit.analyses.advice import advice
+from ucrit.analyses.stability.advice import advice
 from ucrit.catalogue import vehicle_names
 
 UNSTABLE = [name for name in vehicle_names() if name not in ("coach-truck",) and not analyze(name).stable]

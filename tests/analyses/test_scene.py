@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ucrit import Model, ModelError, UcritError, load, modes, simulate, state
-from ucrit.analyses.scene import mode_scene, scene
+from ucrit.analyses.motion.scene import mode_scene, scene
 from ucrit.catalogue import vehicle_names
 from ucrit.core import Body, Drawing
 from ucrit.core.drawing import box

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from ucrit import Model, critical, load, param, speed, state
-from ucrit.analyses.modes import rigid_positions
-from ucrit.analyses.sensitivity import sensitivity
+from ucrit.analyses.linear.modes import rigid_positions
+from ucrit.analyses.stability.sensitivity import sensitivity
 from ucrit.catalogue import vehicle_names
 from ucrit.core.compiled import compiled, direction, state_slopes, state_space
 from ucrit.core.possible import allowed

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ucrit import UcritError, load
-from ucrit.analyses.static import static_stability
+from ucrit.analyses.stability.static import static_stability
 from ucrit.core.compiled import state_space
 
 

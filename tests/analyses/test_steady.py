@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from ucrit import UcritError, critical, load
-from ucrit.analyses.steady import GRAVITY, axle_loads, steady_turn
+from ucrit.analyses.linear.steady import GRAVITY, axle_loads, steady_turn
 from ucrit.core.compiled import state_space
 
 SPEEDS = np.linspace(1, 34, 34)

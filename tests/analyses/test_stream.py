@@ -185,7 +185,7 @@ def test_other_jobs_and_other_folders_are_left_alone(tmp_path):
     ],
 )
 def test_wrong_input_is_refused_in_a_sentence(options, message, tmp_path, monkeypatch):
-    monkeypatch.setattr(sys.modules["ucrit.analyses.stream"], "TIMEOUT", 0.5)
+    monkeypatch.setattr(sys.modules["ucrit.analyses.regions.stream"], "TIMEOUT", 0.5)
     with pytest.raises(UcritError) as caught:
         stream(CARAVAN, tmp_path / "x", **{**RANGES, **options})
     assert message in str(caught.value)
@@ -196,7 +196,7 @@ def test_wrong_input_is_refused_in_a_sentence(options, message, tmp_path, monkey
 def test_a_scheduler_that_dies_leaves_what_is_done(tmp_path, monkeypatch):
     from distributed import LocalCluster
 
-    monkeypatch.setattr(sys.modules["ucrit.analyses.stream"], "TIMEOUT", 1)
+    monkeypatch.setattr(sys.modules["ucrit.analyses.regions.stream"], "TIMEOUT", 1)
     store = tmp_path / "x.zarr"
 
     with LocalCluster(

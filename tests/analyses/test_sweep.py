@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from ucrit import UcritError, load, modes
-from ucrit.analyses import sweep as module
-from ucrit.analyses.ranges import COUNT, MAX_COUNT, parse_range
-from ucrit.analyses.sweep import sweep
+from ucrit.analyses.regions import sweep as module
+from ucrit.analyses.regions.ranges import COUNT, MAX_COUNT, parse_range
+from ucrit.analyses.regions.sweep import sweep
 from ucrit.catalogue import vehicle_names
 from ucrit.core.possible import allowed
 

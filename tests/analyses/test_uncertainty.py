@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from scipy.stats import norm, truncnorm
 
 from ucrit import UcritError, critical, find_model, load, plot, uncertainty
-from ucrit.analyses.critical_many import crossings
-from ucrit.analyses.sampling import drawn, unit_points
+from ucrit.analyses.regions.critical_many import crossings
+from ucrit.analyses.regions.sampling import drawn, unit_points
 from ucrit.catalogue import vehicle_names
 from ucrit.core.compiled import compiled, direction
 from ucrit.core.possible import allowed

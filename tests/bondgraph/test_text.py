@@ -8,7 +8,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from ucrit import ModelError, critical, modes
-from ucrit.analyses.bonds import stating
+from ucrit.analyses.about.bonds import stating
 from ucrit.bondgraph import Graph, I, R, one
 from ucrit.bondgraph.laws import reading
 from ucrit.bondgraph.model import graph_of, model_from_text

@@ -12,7 +12,7 @@ import pytest
 from click.testing import Result
 
 import ucrit
-from ucrit.analyses.show import show
+from ucrit.analyses.about.show import show
 from ucrit.catalogue import model_names, vehicle_names
 from ucrit.cli.app import COMMANDS
 

@@ -45,6 +45,6 @@ def test_refuses_in_a_sentence(run, words, message):
 def test_a_basin_is_told(run, monkeypatch):
     import importlib
 
-    monkeypatch.setattr(importlib.import_module("ucrit.analyses.basin"), "ROUNDS", 1)
+    monkeypatch.setattr(importlib.import_module("ucrit.analyses.nonlinear.basin"), "ROUNDS", 1)
     done = run("cycles", "caravan-with-stabiliser", "--at", "24", "--to", "30", "--basin", "theta'")
     assert "a smaller one dies out" in " ".join(done.output.split())

@@ -7,7 +7,7 @@ from decimal import Decimal
 from hypothesis import given
 from hypothesis import strategies as st
 
-from ucrit.analyses.advice import decimal_text, rounded
+from ucrit.analyses.stability.advice import decimal_text, rounded
 from ucrit.cli.wrap import number, shorten, wrap_formula
 
 NAMES = st.sampled_from(["a", "C_f", "I_z", "lambda_", "U**2"])

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import ucrit
-from ucrit.analyses.enclosing import Enclosing
+from ucrit.analyses.regions.enclosing import Enclosing
 from ucrit.catalogue import vehicle_names
 from ucrit.core.codegen import build
 from ucrit.core.compiled import compiled, deciding, direction

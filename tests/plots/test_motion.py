@@ -11,7 +11,7 @@ import pytest
 from PIL import Image
 
 from ucrit import UcritError, animate, load, modes, plot, simulate
-from ucrit.analyses.scene import mode_scene, scene
+from ucrit.analyses.motion.scene import mode_scene, scene
 from ucrit.plots import animation, draw_frame
 from ucrit.plots.animation import encoder
 from ucrit.plots.camera import frame_times

@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 import ucrit
 from ucrit import UcritError, load
-from ucrit.analyses.listing import template
+from ucrit.analyses.about.listing import template
 from ucrit.catalogue import vehicle_names
 from ucrit.parts.tires.linear import Linear
 from ucrit.web import answers, downloads, motions, routes

@@ -10,7 +10,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from ..analyses.show import resolve
+from ..analyses.about.show import resolve
 from ..core.model import Model
 from .report import Check, Report
 from .subject import Subject

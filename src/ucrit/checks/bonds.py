@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from ..analyses.modes import modes
-from ..analyses.power_flow import PowerFlow, power_flow
-from ..analyses.simulate import simulate
-from ..analyses.simulation import Simulation
+from ..analyses.linear.modes import modes
+from ..analyses.motion.power_flow import PowerFlow, power_flow
+from ..analyses.motion.simulate import simulate
+from ..analyses.motion.simulation import Simulation
 from ..bondgraph.equations import StateEquations, state_equations
 from ..bondgraph.further import graph_states
 from ..bondgraph.model import BondGraphModel, graph_of, states_bond_graph

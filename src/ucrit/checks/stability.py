@@ -8,7 +8,7 @@ import mpmath
 import numpy as np
 import numpy.typing as npt
 
-from ..analyses.criteria import criteria
+from ..analyses.stability.criteria import criteria
 from ..core.codegen import build, generate
 from ..core.compiled import compiled
 from ..core.errors import UcritError, near_match

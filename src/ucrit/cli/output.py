@@ -34,7 +34,7 @@ def write_picture(result: Any, path: str) -> None:
     """Draw a result into a file."""
     import io
 
-    from ..analyses.convert import write_whole
+    from ..analyses.results.convert import write_whole
     from ..plots import plot
 
     content = io.BytesIO()

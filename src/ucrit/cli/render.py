@@ -5,18 +5,18 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from ..analyses.advice import advice
-from ..analyses.wording import speed_text
+from ..analyses.stability.advice import advice
+from ..analyses.stability.wording import speed_text
 from .terminal import Page, vehicle_head
 from .wrap import number, shorten
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from ..analyses.analyze import Analysis
-    from ..analyses.critical import Critical
-    from ..analyses.modes import Mode
-    from ..analyses.remedies import Remedy
+    from ..analyses.stability.analyze import Analysis
+    from ..analyses.stability.critical import Critical
+    from ..analyses.linear.modes import Mode
+    from ..analyses.stability.remedies import Remedy
 
 CLOSED_FORM_LINES = 6
 CRITERION_LINES = 16

@@ -9,7 +9,7 @@ from .terminal import Page
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from ..analyses.bonds import Bonds
+    from ..analyses.about.bonds import Bonds
 
 
 def show_bonds(console: Console, found: Bonds, drawing: str | None = None) -> None:

@@ -13,10 +13,10 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
-    from ..analyses.cite import Citations
-    from ..analyses.laws import ControllerDescription
-    from ..analyses.listing import Entry, Listing
-    from ..analyses.show import Matrix, ModelDescription
+    from ..analyses.about.cite import Citations
+    from ..analyses.about.laws import ControllerDescription
+    from ..analyses.about.listing import Entry, Listing
+    from ..analyses.about.show import Matrix, ModelDescription
     from ..checks import Report
 
 COLOURS = {True: "green", False: "bold red", None: "dim"}

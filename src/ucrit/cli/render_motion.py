@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ..analyses.motion_summary import peaks, tendency, tendency_text
+from ..analyses.motion.motion_summary import peaks, tendency, tendency_text
 from .terminal import Page, vehicle_head
 from .wrap import number
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from ..analyses.simulation import Simulation
+    from ..analyses.motion.simulation import Simulation
 
 MOST_EVENTS, SHORT = 12, 40
 """Events that are listed one by one, and the length up to which the states at an event are told."""

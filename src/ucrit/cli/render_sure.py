@@ -5,15 +5,15 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from ..analyses.wording import speed_text
+from ..analyses.stability.wording import speed_text
 from .terminal import Page, vehicle_head
 from .wrap import number
 
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from ..analyses.certificate import Certificate
-    from ..analyses.uncertainty import Uncertainty
+    from ..analyses.regions.certificate import Certificate
+    from ..analyses.regions.uncertainty import Uncertainty
 
 SHARES = (0.01, 0.05, 0.25, 0.5, 0.75, 0.95, 0.99)
 

@@ -20,8 +20,8 @@ from .camera import LOOKS, Camera, camera, caption, frame_rate, frame_times
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from ..analyses.scene import Scene
-    from ..analyses.simulation import Simulation
+    from ..analyses.motion.scene import Scene
+    from ..analyses.motion.simulation import Simulation
 
 FORMATS = (".gif", ".mp4", ".html")
 WIDTH = 6.4
@@ -64,8 +64,8 @@ def animate(
     Traceback (most recent call last):
     ucrit.core.errors.UcritError: an animation is written to a file that ends in .gif, .mp4, .html, got 'cart.avi'
     """
-    from ..analyses.convert import write_whole
-    from ..analyses.scene import Scene, scene
+    from ..analyses.results.convert import write_whole
+    from ..analyses.motion.scene import Scene, scene
 
     ending = film_format(path)
     if isinstance(result, Scene):
@@ -166,7 +166,7 @@ def draw_frame(scene: Scene, index: int) -> Any:
     """Return a figure with one frame of a scene.
 
     >>> from ucrit import load, simulate
-    >>> from ucrit.analyses.scene import scene
+    >>> from ucrit.analyses.motion.scene import scene
     >>> len(draw_frame(scene(simulate(load("caravan"), 1)), 0).axes)
     1
     """

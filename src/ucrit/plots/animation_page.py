@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from .camera import LOOKS, camera, caption
 
 if TYPE_CHECKING:
-    from ..analyses.scene import Scene
+    from ..analyses.motion.scene import Scene
 
 SHARPNESS = 4000
 """Steps of a window's width to which places are rounded."""
@@ -101,7 +101,7 @@ def film(scene: Scene) -> dict[str, Any]:
     """Return a scene as plain data that a script can show: windows, outlines and times, rounded to what can be seen.
 
     >>> from ucrit import load, modes
-    >>> from ucrit.analyses.scene import mode_scene
+    >>> from ucrit.analyses.motion.scene import mode_scene
     >>> caravan = load("caravan")
     >>> len(film(mode_scene(caravan, modes(caravan).list()[0]))["times"])
     121

@@ -12,7 +12,7 @@ from . import labels, style
 from .stability_map import fill
 
 if TYPE_CHECKING:
-    from ..analyses.boundary_result import StabilityBoundary
+    from ..analyses.regions.boundary_result import StabilityBoundary
 
 LIGHT = np.array([-0.36, -0.48, 0.8])
 """Where the light on surfaces comes from, as a unit vector of shares of the ranges."""

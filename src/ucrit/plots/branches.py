@@ -12,8 +12,8 @@ import numpy.typing as npt
 from ..core.errors import UcritError
 
 if TYPE_CHECKING:
-    from ..analyses.critical import Critical, CriticalValues
-    from ..analyses.locus import Locus
+    from ..analyses.stability.critical import Critical, CriticalValues
+    from ..analyses.stability.locus import Locus
     from ..core.declare import Parameter
 
 Array = npt.NDArray[Any]

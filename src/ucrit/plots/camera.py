@@ -11,7 +11,7 @@ import numpy.typing as npt
 from .style import BRANCHES, INK, MUTED
 
 if TYPE_CHECKING:
-    from ..analyses.scene import Scene
+    from ..analyses.motion.scene import Scene
 
 Array = npt.NDArray[Any]
 

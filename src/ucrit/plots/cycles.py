@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from ..analyses.cycle_words import leading_state
+from ..analyses.nonlinear.cycle_words import leading_state
 from ..core.errors import UcritError, near_match
 from . import labels, style
 
 if TYPE_CHECKING:
-    from ..analyses.cycle import CycleBranch
-    from ..analyses.cycles import LimitCycles
+    from ..analyses.nonlinear.cycle import CycleBranch
+    from ..analyses.nonlinear.cycles import LimitCycles
 
 Array = npt.NDArray[Any]
 

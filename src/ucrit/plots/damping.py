@@ -13,8 +13,8 @@ from . import labels, style
 from .branches import Branch, marks, parameter, upper
 
 if TYPE_CHECKING:
-    from ..analyses.critical import CriticalValues
-    from ..analyses.locus import Locus
+    from ..analyses.stability.critical import CriticalValues
+    from ..analyses.stability.locus import Locus
 
 Array = npt.NDArray[Any]
 

@@ -23,7 +23,7 @@ from .uncertainty import plot_uncertainty
 
 
 def _analysis(result: Any, *, figure: Any) -> Any:
-    from ..analyses.locus import locus
+    from ..analyses.stability.locus import locus
 
     if result.critical is None:
         return plot_mode_shapes(result.modes, result.vehicle, figure=figure)
@@ -31,7 +31,7 @@ def _analysis(result: Any, *, figure: Any) -> Any:
 
 
 def _locus(path: Any, *, figure: Any) -> Any:
-    from ..analyses.critical import critical
+    from ..analyses.stability.critical import critical
 
     return plot_overview(path, critical=critical(path.vehicle, path.parameter), figure=figure)
 

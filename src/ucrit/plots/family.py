@@ -9,7 +9,7 @@ import numpy as np
 from . import labels, style
 
 if TYPE_CHECKING:
-    from ..analyses.steady_family import SteadyFamily
+    from ..analyses.nonlinear.steady_family import SteadyFamily
 
 
 def plot_family(family: SteadyFamily, quantity: str | None = None, *, figure: Any = None) -> Any:

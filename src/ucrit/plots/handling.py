@@ -11,7 +11,7 @@ from ..core.errors import UcritError
 from . import labels, style
 
 if TYPE_CHECKING:
-    from ..analyses.handling import Handling
+    from ..analyses.nonlinear.handling import Handling
 
 Array = npt.NDArray[Any]
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from . import labels, style
 
 if TYPE_CHECKING:
-    from ..analyses.modes import Mode
+    from ..analyses.linear.modes import Mode
     from ..core.model import Model
 
 RADIUS = 0.28

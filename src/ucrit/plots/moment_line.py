@@ -9,7 +9,7 @@ import numpy as np
 from . import labels, style
 
 if TYPE_CHECKING:
-    from ..analyses.pitching import MomentLine
+    from ..analyses.stability.pitching import MomentLine
 
 
 def plot_moment_line(lines: MomentLine, *, figure: Any = None) -> Any:

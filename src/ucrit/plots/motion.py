@@ -11,7 +11,7 @@ from . import style
 from .labels import unit_text
 
 if TYPE_CHECKING:
-    from ..analyses.simulation import Simulation
+    from ..analyses.motion.simulation import Simulation
 
 MOST = 8
 """Curves that are drawn at most."""

@@ -10,8 +10,8 @@ from .damping import plot_damping
 from .root_locus import plot_locus
 
 if TYPE_CHECKING:
-    from ..analyses.critical import CriticalValues
-    from ..analyses.locus import Locus
+    from ..analyses.stability.critical import CriticalValues
+    from ..analyses.stability.locus import Locus
 
 
 def plot_overview(locus: Locus, *, critical: CriticalValues | None = None, figure: Any = None) -> Any:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from . import labels, style
 
 if TYPE_CHECKING:
-    from ..analyses.modes import Mode
+    from ..analyses.linear.modes import Mode
 
 
 def plot_participation(modes: Iterable[Mode], *, figure: Any = None) -> Any:

@@ -10,7 +10,7 @@ from ..core.errors import UcritError
 from . import labels, style
 
 if TYPE_CHECKING:
-    from ..analyses.remedies import Remedy
+    from ..analyses.stability.remedies import Remedy
 
 LIMIT = 1.0
 """Bars end here at the latest; a longer change is told by its number and an open end."""

@@ -13,8 +13,8 @@ from .branches import Branch, at, marks, parameter, upper, view
 from .placing import Labels
 
 if TYPE_CHECKING:
-    from ..analyses.critical import Critical, CriticalValues
-    from ..analyses.locus import Locus
+    from ..analyses.stability.critical import Critical, CriticalValues
+    from ..analyses.stability.locus import Locus
 
 Array = npt.NDArray[Any]
 

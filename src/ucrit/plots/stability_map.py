@@ -11,7 +11,7 @@ from ..core.errors import UcritError
 from . import labels, style
 
 if TYPE_CHECKING:
-    from ..analyses.stability_map import StabilityMap
+    from ..analyses.regions.stability_map import StabilityMap
     from ..core.declare import Parameter
     from ..core.model import Model
 

@@ -9,7 +9,7 @@ import numpy as np
 from . import style
 
 if TYPE_CHECKING:
-    from ..analyses.tire_curves import TireCurves
+    from ..analyses.nonlinear.tire_curves import TireCurves
 
 LOAD_ANGLES = (2, 4, 6, 10)
 """Slip angles [degrees] of the lines over the load."""

@@ -11,8 +11,8 @@ from ..core.errors import UcritError
 from . import labels, style
 
 if TYPE_CHECKING:
-    from ..analyses.influence import Influence
-    from ..analyses.uncertainty import Uncertainty
+    from ..analyses.regions.influence import Influence
+    from ..analyses.regions.uncertainty import Uncertainty
 
 Array = npt.NDArray[Any]
 

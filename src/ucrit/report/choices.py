@@ -13,8 +13,8 @@ from ..core.errors import UcritError, near_match
 from ..core.possible import allowed
 
 if TYPE_CHECKING:
-    from ..analyses.analyze import Analysis
-    from ..analyses.locus import Locus
+    from ..analyses.stability.analyze import Analysis
+    from ..analyses.stability.locus import Locus
     from ..core.model import Model
 
 Array = npt.NDArray[np.float64]
@@ -51,7 +51,7 @@ def _checked(vehicle: Model, asked: Sequence[str]) -> tuple[str, str]:
 
 def _sensitive(analysis: Analysis) -> list[str]:
     """Parameters of a stable vehicle, first those that move its next critical speed most, or its damping."""
-    from ..analyses.sensitivity import sensitivity
+    from ..analyses.stability.sensitivity import sensitivity
 
     vehicle = analysis.vehicle
     found = sensitivity(vehicle)

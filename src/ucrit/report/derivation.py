@@ -13,7 +13,7 @@ from . import formulas
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from ..analyses.show import Formula, Matrix, ModelDescription
+    from ..analyses.about.show import Formula, Matrix, ModelDescription
     from ..core.declare import Quantity
 
 

@@ -13,9 +13,9 @@ from . import choices, formulas
 from .figures import svg
 
 if TYPE_CHECKING:
-    from ..analyses.analyze import Analysis
-    from ..analyses.critical import CriticalValues
-    from ..analyses.locus import Locus
+    from ..analyses.stability.analyze import Analysis
+    from ..analyses.stability.critical import CriticalValues
+    from ..analyses.stability.locus import Locus
 
 LOCUS_POINTS = 300
 MAP_POINTS = 240
@@ -31,8 +31,8 @@ class Drawing:
 
 def along(analysis: Analysis) -> tuple[Locus, CriticalValues] | None:
     """Follow the eigenvalues along the speed or, without one, along the parameter of the best remedy."""
-    from ..analyses.critical import critical
-    from ..analyses.locus import locus
+    from ..analyses.stability.critical import critical
+    from ..analyses.stability.locus import locus
 
     vehicle = analysis.vehicle
     name = type(vehicle).declaration.speed
@@ -83,7 +83,7 @@ def of_locus(path: Locus, found: CriticalValues) -> list[Drawing]:
 
 def of_map(analysis: Analysis, asked: Sequence[str] | None, path: Locus | None) -> Drawing | None:
     """Draw where in the plane of two parameters the vehicle is stable."""
-    from ..analyses.stability_map import stability_map
+    from ..analyses.regions.stability_map import stability_map
     from ..plots.stability_map import plot_map
 
     names = choices.map_parameters(analysis, asked)

@@ -6,17 +6,17 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..analyses.advice import advice
-from ..analyses.wording import speed_text
+from ..analyses.stability.advice import advice
+from ..analyses.stability.wording import speed_text
 from ..plots.labels import NOTHING, fixed, number, percent, unit_text
 from . import formulas
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from ..analyses.analyze import Analysis
-    from ..analyses.critical import Critical
-    from ..analyses.modes import Mode
+    from ..analyses.stability.analyze import Analysis
+    from ..analyses.stability.critical import Critical
+    from ..analyses.linear.modes import Mode
     from ..core.model import Model
 
 KINDS = {

@@ -11,7 +11,7 @@ from .. import __version__
 from . import derivation, drawings, formulas, tables
 
 if TYPE_CHECKING:
-    from ..analyses.analyze import Analysis
+    from ..analyses.stability.analyze import Analysis
 
 HERE = Path(__file__).resolve().parent
 
@@ -50,7 +50,7 @@ def write_report(
     >>> from ucrit import analyze, write_report
     >>> write_report(analyze("caravan"), "caravan.html")  # doctest: +SKIP
     """
-    from ..analyses.convert import write_whole
+    from ..analyses.results.convert import write_whole
 
     write_whole(path, render(analysis, map_parameters=map_parameters, command=command).encode())
 
@@ -101,7 +101,7 @@ def _texts(analysis: Analysis) -> dict[str, Any]:
 
 
 def _speed(analysis: Analysis) -> str:
-    from ..analyses.wording import speed_text
+    from ..analyses.stability.wording import speed_text
 
     return speed_text(analysis.speed or 0.0)
 
@@ -111,7 +111,7 @@ def _goal(analysis: Analysis) -> str:
 
 
 def _tables(analysis: Analysis) -> dict[str, Any]:
-    from ..analyses.show import show
+    from ..analyses.about.show import show
 
     described = show(analysis.vehicle)
     critical = None if analysis.critical is None else tables.critical(analysis.critical.values)

@@ -11,9 +11,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from ..analyses.analyze import analyze
-from ..analyses.critical import critical
-from ..analyses.locus import Locus, locus
+from ..analyses.stability.analyze import analyze
+from ..analyses.stability.critical import critical
+from ..analyses.stability.locus import Locus, locus
 from ..core.errors import UcritError, near_match
 from ..core.files import write_vehicle
 from ..core.model import Model

@@ -6,9 +6,9 @@ import math
 import time
 from typing import TYPE_CHECKING, Any
 
-from ..analyses.modes import Mode, modes
-from ..analyses.scene import mode_scene, refuse_without_drawing, scene
-from ..analyses.simulate import simulate
+from ..analyses.linear.modes import Mode, modes
+from ..analyses.motion.scene import mode_scene, refuse_without_drawing, scene
+from ..analyses.motion.simulate import simulate
 from ..core.errors import UcritError
 from ..plots.animation_page import film
 from ..plots.camera import caption, frame_times

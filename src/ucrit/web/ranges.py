@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from ..core.possible import allowed
 
 if TYPE_CHECKING:
-    from ..analyses.analyze import Analysis
+    from ..analyses.stability.analyze import Analysis
     from ..core.declare import Parameter
     from ..core.model import Model
 

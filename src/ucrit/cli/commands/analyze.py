@@ -9,7 +9,7 @@ import click
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 
 if TYPE_CHECKING:
-    from ...analyses.analyze import Analysis
+    from ...analyses.stability.analyze import Analysis
 
 NOT_STABLE = 3
 
@@ -68,7 +68,7 @@ def command(
     Exit status: 0 judged, stable or not; 2 wrong input;
                  3 not stable up to the speed (only with --fail-if-unstable).
     """
-    from ...analyses.analyze import analyze
+    from ...analyses.stability.analyze import analyze
 
     if map_parameters and report is None:
         raise click.UsageError("--map chooses what the report draws: give --report FILE.html too")

@@ -30,7 +30,7 @@ def command(subject: str, draw: str | None, as_text: bool, as_json: bool) -> Non
 
     Exit status: 0 done; 2 wrong input.
     """
-    from ...analyses.bonds import bonds
+    from ...analyses.about.bonds import bonds
     from ...core.errors import UcritError
 
     if draw is not None and not draw.lower().endswith(PICTURES):

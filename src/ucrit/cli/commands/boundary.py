@@ -49,7 +49,7 @@ def command(
 
     Exit status: 0 done; 2 wrong input, nothing is written then.
     """
-    from ...analyses.boundary import boundary
+    from ...analyses.regions.boundary import boundary
 
     write = to_stdout if output is None else writer(output)
     subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))

@@ -39,7 +39,7 @@ def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], box
     Exit status: 0 done, proved or not; 2 wrong input;
                  with --fail-if-unstable also 3 a counter-example, 1 undecided.
     """
-    from ...analyses.certify import certify
+    from ...analyses.regions.certify import certify
     from .sweep import refuse_both
 
     changed, region = assignments(changes, "a=1.9"), assignments(ranges, "m=1000:1300")

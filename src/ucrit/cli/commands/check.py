@@ -29,7 +29,7 @@ def command(model: str, published: str | None) -> int:
 
     Exit status: 0 all checks passed; 1 one failed; 2 wrong input.
     """
-    from ...analyses.show import resolve
+    from ...analyses.about.show import resolve
     from ...catalogue import models_in_file
     from ...checks import check_model
     from ..render_model import show_report

@@ -24,7 +24,7 @@ def command(subjects: tuple[str, ...], bibtex: bool, as_json: bool) -> None:
 
     Exit status: 0 done; 2 wrong input.
     """
-    from ...analyses.cite import cite
+    from ...analyses.about.cite import cite
     from ...core.errors import UcritError
 
     if bibtex and as_json:

@@ -9,8 +9,8 @@ import click
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 
 if TYPE_CHECKING:
-    from ...analyses.analyze import Analysis
-    from ...analyses.compare import Comparison
+    from ...analyses.stability.analyze import Analysis
+    from ...analyses.stability.compare import Comparison
 
 
 @click.command("compare", short_help="Put vehicles side by side: verdicts, modes, what differs.")
@@ -44,8 +44,8 @@ def command(vehicles: tuple[str, ...], changes: tuple[str, ...], upto: str | Non
 
     Exit status: 0 compared, stable or not; 2 wrong input.
     """
-    from ...analyses.analyze import analyze
-    from ...analyses.compare import compare
+    from ...analyses.stability.analyze import analyze
+    from ...analyses.stability.compare import compare
 
     subjects = _subjects(vehicles, assignments(changes, 'a=1.9 or "m=2 t"'), upto)
     comparison = compare(*subjects)

@@ -11,7 +11,7 @@ from ..parameters import Name, assignments, complete_parameters, load_vehicle
 from ..progress import progress
 
 if TYPE_CHECKING:
-    from ...analyses.cycles import LimitCycles
+    from ...analyses.nonlinear.cycles import LimitCycles
 
 ROWS = 12
 """Cycles of a branch that are printed; all of them are written."""
@@ -57,8 +57,8 @@ def command(
 
     Exit status: 0 followed; 2 wrong input, nothing is written then.
     """
-    from ...analyses.basin import basin
-    from ...analyses.cycles import limit_cycles
+    from ...analyses.nonlinear.basin import basin
+    from ...analyses.nonlinear.cycles import limit_cycles
 
     write = None if out is None else writer(out)
     subject = load_vehicle(vehicle, assignments(changes, 'a=1.9 or "m=2 t"'))
@@ -82,7 +82,7 @@ def _value(found: LimitCycles, at: str | None) -> float:
 
 
 def _show(found: LimitCycles, value: float, asked: bool, border: str | None, out: str | None) -> None:
-    from ...analyses.cycle_words import expectation
+    from ...analyses.nonlinear.cycle_words import expectation
     from ..terminal import Page, terminal, vehicle_head
 
     page = Page(terminal())
@@ -103,7 +103,7 @@ def _show(found: LimitCycles, value: float, asked: bool, border: str | None, out
 
 
 def _table(page: Any, branch: Any) -> None:
-    from ...analyses.cycle_words import amplitude_text, leading_state, value_text
+    from ...analyses.nonlinear.cycle_words import amplitude_text, leading_state, value_text
     from ..wrap import number
 
     name, unit = leading_state(branch)

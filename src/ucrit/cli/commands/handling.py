@@ -38,7 +38,7 @@ def command(vehicle: str, changes: tuple[str, ...], upto: str | None, slip: str,
 
     Exit status: 0 done, whatever the limit; 2 wrong input.
     """
-    from ...analyses.handling import handling_diagram
+    from ...analyses.nonlinear.handling import handling_diagram
 
     write = None if out is None else writer(out)
     result = handling_diagram(load_vehicle(vehicle, assignments(changes, "rear_mu=0.5"), upto), slip=slip)

@@ -21,7 +21,7 @@ def command(kind: str | None, as_json: bool) -> None:
 
     Exit status: 0 done; 2 wrong input.
     """
-    from ...analyses.listing import listing
+    from ...analyses.about.listing import listing
 
     found = listing(kind)
     if as_json:

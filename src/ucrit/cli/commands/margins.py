@@ -39,8 +39,8 @@ def command(
 
     Exit status: 0 done; 2 wrong input.
     """
-    from ...analyses.margins import driven_inputs, margins
-    from ...analyses.sweep import read_ranges
+    from ...analyses.linear.margins import driven_inputs, margins
+    from ...analyses.regions.sweep import read_ranges
     from ...core.errors import UcritError
     from ..output import to_stdout, writer
 

@@ -25,6 +25,6 @@ def command(model: str, like: str | None) -> None:
 
     Exit status: 0 done; 2 wrong input.
     """
-    from ...analyses.listing import template
+    from ...analyses.about.listing import template
 
     click.echo(template(model, like), nl=False)

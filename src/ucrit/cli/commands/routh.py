@@ -25,6 +25,6 @@ def command(polynomial: str, variable: str, positive: str) -> None:
 
     Exit status: 0 done, whatever the roots; 2 wrong input.
     """
-    from ...analyses.routh import routh
+    from ...analyses.stability.routh import routh
 
     click.echo(routh(polynomial, variable, positive.replace(",", " ").split()))

@@ -26,8 +26,8 @@ def command(subject: str, as_json: bool) -> None:
 
     Exit status: 0 done; 2 wrong input.
     """
-    from ...analyses.laws import describe_controller
-    from ...analyses.show import show
+    from ...analyses.about.laws import describe_controller
+    from ...analyses.about.show import show
     from ...catalogue import controller_names
 
     found = describe_controller(subject) if subject.replace("_", "-") in controller_names() else show(subject)
@@ -36,7 +36,7 @@ def command(subject: str, as_json: bool) -> None:
 
         click.echo(json.dumps(found.to_dict(), indent=2, allow_nan=False, ensure_ascii=False))
         return
-    from ...analyses.show import ModelDescription
+    from ...analyses.about.show import ModelDescription
     from ..render_model import show_controller, show_model
     from ..terminal import terminal
 

@@ -89,7 +89,7 @@ def command(
     """
     import numpy as np
 
-    from ...analyses.simulate import simulate
+    from ...analyses.motion.simulate import simulate
     from ..render_motion import show_motion
     from ..terminal import terminal
 
@@ -98,7 +98,7 @@ def command(
         raise click.UsageError("--enlarge is for an animation: give --out FILE.gif, .mp4 or .html too")
     subject = load_vehicle(vehicle, assignments(changes, 'a=1.9 or "m=2 t"'))
     if any(path.lower().endswith(FILMS) for path in outputs):
-        from ...analyses.scene import refuse_without_drawing
+        from ...analyses.motion.scene import refuse_without_drawing
 
         refuse_without_drawing(subject)
     given = assignments(starts, 'theta="1 deg"', "initial value")

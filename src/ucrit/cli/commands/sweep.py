@@ -51,7 +51,7 @@ def command(
 
     Exit status: 0 done; 2 wrong input, nothing is written then.
     """
-    from ...analyses.sweep import sweep
+    from ...analyses.regions.sweep import sweep
 
     if output is not None and output.endswith(ZARR):
         _stream(vehicle, ranges, changes, output, scheduler)
@@ -71,7 +71,7 @@ def _stream(
     vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], output: str, scheduler: str | None
 ) -> None:
     """Write a sweep to a Zarr store, piece by piece."""
-    from ...analyses.stream import stream
+    from ...analyses.regions.stream import stream
 
     read = assignments(ranges, '"U=20:130:12 km/h"')
     refuse_both(read, assignments(changes, "a=1.9"))

@@ -10,7 +10,7 @@ from ..output import writer
 from ..parameters import Name, assignments
 
 if TYPE_CHECKING:
-    from ...analyses.tire_curves import TireCurves
+    from ...analyses.nonlinear.tire_curves import TireCurves
 
 
 @click.command("tire", short_help="Show a tire: a property file (.tir) or a law with numbers.")
@@ -38,7 +38,7 @@ def command(
     Exit status: 0 done; 2 wrong input.
     """
     from ... import catalogue
-    from ...analyses.tire_curves import LOADS, tire_curves
+    from ...analyses.nonlinear.tire_curves import LOADS, tire_curves
     from ...core.units import to_si
 
     write = None if out is None else writer(out)

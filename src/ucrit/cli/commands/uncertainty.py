@@ -55,7 +55,7 @@ def command(
 
     Exit status: 0 done; 2 wrong input.
     """
-    from ...analyses.uncertainty import uncertainty
+    from ...analyses.regions.uncertainty import uncertainty
 
     write = None if output is None else writer(output)
     subject = load_vehicle(vehicle, assignments(changes, 'a=1.9 or "m=2 t"'))

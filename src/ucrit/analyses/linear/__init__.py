@@ -1,0 +1,1 @@
+"""The linear equations: modes, forms, transfer functions, responses, steady turns, margins."""

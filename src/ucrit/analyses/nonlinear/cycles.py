@@ -1,0 +1,235 @@
+"""Limit cycles: what happens beyond the critical speed, and how far below it a vehicle may keep oscillating."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ...core.compiled import compiled, direction
+from ...core.errors import UcritError
+from ...core.model import Model
+from ...core.motion import motion
+from ...core.units import to_si
+from ...numerics.collocation import Field
+from ...numerics.cycle_branch import follow
+from ...numerics.cycle_points import Branch, Hopf
+from ...numerics.orbit import Orbit
+from ..results.convert import Table, Tabular
+from ..stability.critical import Critical, CriticalValues, critical, parameter_name
+from .cycle import Cycle, CycleBranch, of_point, table_of
+
+Array = npt.NDArray[Any]
+
+TOLERANCE = 1e-6
+
+
+@dataclass(frozen=True)
+class LimitCycles(Tabular):
+    """All limit cycles that were followed from a vehicle's critical values of one parameter.
+
+    Attributes
+    ----------
+    vehicle, parameter, unit
+        The vehicle, what is varied and its unit.
+    lower, upper
+        Range in which cycles were followed [SI].
+    critical
+        Critical values of straight running in the range.
+    branches
+        One for each critical value of flutter from which cycles leave.
+    """
+
+    vehicle: Model
+    parameter: str
+    unit: str
+    lower: float
+    upper: float
+    critical: CriticalValues
+    branches: tuple[CycleBranch, ...]
+
+    def at(self, value: float | str) -> tuple[Cycle, ...]:
+        """Return the cycles of all branches at a value of the parameter [SI, or text with a unit].
+
+        Raises `UcritError` for a value outside the range in which cycles were followed.
+        """
+        wanted = to_si(value, self.unit, self.parameter)
+        if not self.lower <= wanted <= self.upper:
+            raise UcritError(
+                f"{type(self.vehicle).model_id()}: {self.parameter} must be within {self.lower:.6g} and "
+                f"{self.upper:.6g} {self.unit}, where limit cycles were followed, got {wanted:.6g}"
+            )
+        return tuple(cycle for branch in self.branches for cycle in branch.at(wanted))
+
+    @property
+    def sentences(self) -> tuple[str, ...]:
+        """What happens, in words: one or more sentences for each branch."""
+        from .cycle_words import describe
+
+        return describe(self)
+
+    def table(self) -> Table:
+        """Return one row for each cycle, with the number of its branch."""
+        return table_of(self.vehicle, self.parameter, self.branches)
+
+    def __str__(self) -> str:
+        return "\n".join(self.sentences)
+
+
+def field_of(vehicle: Model, parameter: str) -> Field:
+    """Return motion, slopes and switches of a vehicle as functions of states (n, P) and a value of the parameter."""
+    made, arguments = motion(type(vehicle)), list(vehicle.arguments())
+    place = list(type(vehicle).declaration.parameters).index(parameter)
+
+    def changed(value: float) -> tuple[list[Any], Array]:
+        given = [*arguments]
+        given[place] = value
+        return given, made.basic(given)[1]
+
+    def rates(x: Array, value: float) -> Array:
+        given, u = changed(value)
+        with np.errstate(all="ignore"):
+            try:
+                return made.rhs(x, np.broadcast_to(u[:, None], (len(u), x.shape[1])), given)
+            except np.linalg.LinAlgError:
+                return np.full(x.shape, np.nan)
+
+    def slopes(x: Array, value: float) -> tuple[Array, Array]:
+        given, u = changed(value)
+        with np.errstate(all="ignore"):
+            try:
+                found = made.slopes(x, np.broadcast_to(u[:, None], (len(u), x.shape[1])), given)
+            except np.linalg.LinAlgError:
+                n, count = x.shape
+                return np.full((count, n, n), np.nan), np.full((count, n), np.nan)
+        return found.A, found.E[..., place]
+
+    def switches(x: Array, value: float) -> Array:
+        given, u = changed(value)
+        return made.switches(x, np.broadcast_to(u[:, None], (len(u), x.shape[1])), given)
+
+    return Field(rates, slopes, switches)
+
+
+def limit_cycles(
+    vehicle: Model,
+    along: str | None = None,
+    lower: float | str | None = None,
+    upper: float | str | None = None,
+    *,
+    tolerance: float = TOLERANCE,
+    progress: Callable[[int, int], None] | None = None,
+) -> LimitCycles:
+    """Follow the limit cycles of a vehicle from each critical value of flutter, through folds.
+
+    Parameters
+    ----------
+    vehicle
+        With scalar parameters and non-linear equations.
+    along
+        Parameter that is varied; the speed by default.
+    lower, upper
+        Range of the parameter [SI, or text with a unit]; by default from a fifth to three times the smallest
+        critical value of flutter.
+    tolerance
+        Relative error of the states that is asked for; each cycle tells what its estimate is.
+    progress
+        Called with the number of cycles found and the most there can be.
+
+    Returns
+    -------
+    LimitCycles
+        By collocation and pseudo-arclength continuation (E. J. Doedel, H. B. Keller and J. P. Kernevez,
+        International Journal of Bifurcation and Chaos 1 (1991)), with Floquet multipliers.
+
+    Raises
+    ------
+    UcritError
+        If a name or range is wrong, a position is free, or no limit cycle is found beside a critical value.
+
+    Examples
+    --------
+    >>> from ucrit import limit_cycles, load
+    >>> gear = limit_cycles(load("nose-gear", {"k": -10}), upper=30)
+    >>> gear.branches[0].kind, [round(c.amplitude["psi"], 4) for c in gear.at(25)]
+    ('supercritical', [0.4247])
+    """
+    name = parameter_name(vehicle, along)
+    declared = type(vehicle).declaration.parameters[name]
+    low, high = (None if v is None else to_si(v, declared.unit, name) for v in (lower, upper))
+    values = critical(vehicle, name, low, high)
+    flutter = [c for c in values if c.kind == "flutter"]
+    if not tolerance > 0:
+        raise UcritError(f"tolerance must be above 0, got {tolerance}")
+    free = compiled(type(vehicle), direction(vehicle)).structural_zeros
+    if free:
+        raise UcritError(f"{type(vehicle).model_id()}: {free} positions are free, so that no limit cycle stands alone")
+    low, high = _span(values, flutter, low, high)
+    flutter = [c for c in flutter if low < c.value < high]
+    found: list[CycleBranch] = []
+    moving = field_of(vehicle, name)
+    for number, event in enumerate(flutter):
+        if any(_ends_at(branch, event.value) for branch in found):
+            continue
+
+        def advance(done: int, most: int, number: int = number) -> None:
+            if progress is not None:
+                progress(number * most + done, len(flutter) * most)
+
+        options: Any = {"tolerance": tolerance, "beyond": _sideways(vehicle), "progress": advance}
+        branch = follow(moving, _hopf(vehicle, moving, event), low, high, **options)
+        found.append(_result(vehicle, event, moving, branch))
+    if progress is not None:
+        progress(1, 1)
+    return LimitCycles(vehicle, name, declared.unit, low, high, values, tuple(found))
+
+
+def _span(
+    values: CriticalValues, flutter: list[Critical], lower: float | None, upper: float | None
+) -> tuple[float, float]:
+    """Return the range in which cycles are followed."""
+    if not flutter:
+        return values.lower, values.upper
+    first = min((c.value for c in flutter), key=abs)
+    sides = sorted((0.2 * first, 3 * first))
+    low = max(values.lower, sides[0]) if lower is None else values.lower
+    high = min(values.upper, sides[1]) if upper is None else values.upper
+    declared = type(values.vehicle).declaration.parameters[values.parameter]
+    margin = 1e-9 * (high - low)  # a parameter's own bounds may not be allowed, such as standing still
+    return max(low, declared.lower + margin), min(high, declared.upper - margin)
+
+
+def _sideways(vehicle: Model) -> Callable[[Orbit], bool]:
+    """Return what tells whether an angle of an orbit passes 90 degrees, where no vehicle runs on."""
+    declared = type(vehicle).declaration.variables
+    labels = motion(type(vehicle)).labels
+    angles = [i for i, label in enumerate(labels) if label in declared and declared[label].unit == "rad"]
+    return lambda orbit: bool(np.any(np.abs(orbit.dense()[angles]) > np.pi / 2))
+
+
+def _ends_at(branch: CycleBranch, value: float) -> bool:
+    return branch.end == "equilibrium" and abs(branch.cycles[-1].value - value) < 0.02 * abs(value)
+
+
+def _hopf(vehicle: Model, moving: Field, event: Critical) -> Hopf:
+    """Return state, frequency and eigenvector at a critical value of flutter."""
+    changed = vehicle.with_(**{event.parameter: event.value})
+    rest, _ = motion(type(vehicle)).basic(changed.arguments())
+    A = moving.slopes(rest[:, None], event.value)[0][0]
+    eigenvalues, vectors = np.linalg.eig(A)
+    nearest = int(np.argmin(np.abs(eigenvalues - 2j * np.pi * event.frequency_hz)))
+    return Hopf(event.value, rest, float(eigenvalues[nearest].imag), vectors[:, nearest])
+
+
+def _result(vehicle: Model, event: Critical, moving: Field, branch: Branch | None) -> CycleBranch:
+    if branch is None:
+        raise UcritError(
+            f"{type(vehicle).model_id()}: no limit cycle is found beside {event.parameter} = {event.value:.6g}; "
+            "the equations must be non-linear"
+        )
+    cycles = tuple(of_point(vehicle, event.parameter, point) for point in branch.points)
+    labels = motion(type(vehicle)).labels
+    return CycleBranch(vehicle, event, event.parameter, event.unit, labels, cycles, branch.end, branch.points, moving)

@@ -1,0 +1,1 @@
+"""Stability over regions of parameters: maps, boundaries, sweeps, uncertainty, proofs."""

@@ -1,0 +1,1 @@
+"""What results share: tables with units, and how notebooks show them."""
