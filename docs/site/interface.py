@@ -52,7 +52,7 @@ def place(name):
 def results():
     """Return the public classes of the analyses by module."""
     found = {}
-    for info in pkgutil.iter_modules(importlib.import_module("ucrit.analyses").__path__, "ucrit.analyses."):
+    for info in pkgutil.walk_packages(importlib.import_module("ucrit.analyses").__path__, "ucrit.analyses."):
         module = importlib.import_module(info.name)
         own = [
             value
