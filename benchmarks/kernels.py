@@ -6,10 +6,10 @@ import numpy as np
 
 from benchmarks.timing import Row, compared, interleaved
 from ucrit import find_model, load, modes
-from ucrit.analyses.stability.locus import locus
 from ucrit.analyses.linear.modes import eigenvalues
 from ucrit.analyses.regions.stability_map import stability_map
 from ucrit.analyses.regions.sweep import sweep
+from ucrit.analyses.stability.locus import locus
 from ucrit.core.compiled import coefficients, state_space
 
 SPEEDS = 100_000

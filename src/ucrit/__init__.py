@@ -7,36 +7,30 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
-    from .analyses.stability.analyze import analyze as analyze
-    from .analyses.stability.approximation import approximation as approximation
-    from .analyses.motion.audit import audit as audit
-    from .analyses.nonlinear.basin import basin as basin
     from .analyses.about.bonds import bonds as bonds
-    from .analyses.regions.boundary import boundary as boundary
-    from .analyses.regions.certify import certify as certify
     from .analyses.about.cite import cite as cite
-    from .analyses.stability.compare import compare as compare
-    from .analyses.results.convert import to_control as to_control
-    from .analyses.results.convert import to_scipy as to_scipy
-    from .analyses.stability.criteria import criteria as criteria
-    from .analyses.stability.critical import critical as critical
-    from .analyses.nonlinear.cycles import limit_cycles as cycles  # noqa: F401
-    from .analyses.nonlinear.cycles import limit_cycles as limit_cycles
-    from .analyses.motion.delays import simulate_delayed as simulate_delayed
-    from .analyses.motion.dwell import dwell_criteria as dwell_criteria
+    from .analyses.about.laws import describe_controller as describe_controller
+    from .analyses.about.listing import listing as list  # noqa: F401
+    from .analyses.about.listing import template as new  # noqa: F401
+    from .analyses.about.show import show as show
     from .analyses.linear.forms import Descriptor as Descriptor
     from .analyses.linear.forms import NthOrder as NthOrder
     from .analyses.linear.forms import SecondOrder as SecondOrder
     from .analyses.linear.forms import StateSpace as StateSpace
     from .analyses.linear.forms import forms as forms
-    from .analyses.nonlinear.handling import handling_diagram as handling  # noqa: F401
-    from .analyses.nonlinear.handling import handling_diagram as handling_diagram
-    from .analyses.about.laws import describe_controller as describe_controller
-    from .analyses.regions.lazy import lazy as lazy
-    from .analyses.stability.limits import limit as limit
-    from .analyses.about.listing import listing as list  # noqa: F401
-    from .analyses.about.listing import template as new  # noqa: F401
-    from .analyses.stability.locus import locus as locus
+    from .analyses.linear.margins import margins as margins
+    from .analyses.linear.modes import modes as modes
+    from .analyses.linear.percussion import percussion as percussion
+    from .analyses.linear.response import frequency_response as frequency_response
+    from .analyses.linear.response import impulse_response as impulse_response
+    from .analyses.linear.response import step_response as step_response
+    from .analyses.linear.steady import axle_loads as axle_loads
+    from .analyses.linear.steady import steady_turn as steady_turn
+    from .analyses.linear.transfer import transfer as transfer
+    from .analyses.linear.trim import trim as trim
+    from .analyses.motion.audit import audit as audit
+    from .analyses.motion.delays import simulate_delayed as simulate_delayed
+    from .analyses.motion.dwell import dwell_criteria as dwell_criteria
     from .analyses.motion.manoeuvres import Gust as Gust
     from .analyses.motion.manoeuvres import Measured as Measured
     from .analyses.motion.manoeuvres import Pulse as Pulse
@@ -44,33 +38,39 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.motion.manoeuvres import Sine as Sine
     from .analyses.motion.manoeuvres import SineWithDwell as SineWithDwell
     from .analyses.motion.manoeuvres import Step as Step
-    from .analyses.linear.margins import margins as margins
-    from .analyses.linear.modes import modes as modes
-    from .analyses.linear.percussion import percussion as percussion
-    from .analyses.stability.pitching import moment_line as moment_line
-    from .analyses.stability.pitching import static_margin as static_margin
     from .analyses.motion.power_flow import power_flow as power_flow
-    from .analyses.stability.remedies import remedies as remedies
-    from .analyses.linear.response import frequency_response as frequency_response
-    from .analyses.linear.response import impulse_response as impulse_response
-    from .analyses.linear.response import step_response as step_response
-    from .analyses.nonlinear.rollover import rollover as rollover
-    from .analyses.stability.routh import routh as routh
-    from .analyses.stability.sensitivity import sensitivity as sensitivity
-    from .analyses.about.show import show as show
     from .analyses.motion.simulate import simulate as simulate
-    from .analyses.regions.stability_map import stability_map as stability_map
-    from .analyses.stability.static import static_stability as static_stability
-    from .analyses.linear.steady import axle_loads as axle_loads
-    from .analyses.linear.steady import steady_turn as steady_turn
+    from .analyses.nonlinear.basin import basin as basin
+    from .analyses.nonlinear.cycles import limit_cycles as cycles  # noqa: F401
+    from .analyses.nonlinear.cycles import limit_cycles as limit_cycles
+    from .analyses.nonlinear.handling import handling_diagram as handling  # noqa: F401
+    from .analyses.nonlinear.handling import handling_diagram as handling_diagram
+    from .analyses.nonlinear.rollover import rollover as rollover
     from .analyses.nonlinear.steady_family import steady_family as steady_family
-    from .analyses.regions.stream import stream as stream
-    from .analyses.regions.sweep import sweep as sweep
     from .analyses.nonlinear.tire_curves import cornering_coefficient as cornering_coefficient
     from .analyses.nonlinear.tire_curves import tire_curves as tire_curves
-    from .analyses.linear.transfer import transfer as transfer
-    from .analyses.linear.trim import trim as trim
+    from .analyses.regions.boundary import boundary as boundary
+    from .analyses.regions.certify import certify as certify
+    from .analyses.regions.lazy import lazy as lazy
+    from .analyses.regions.stability_map import stability_map as stability_map
+    from .analyses.regions.stream import stream as stream
+    from .analyses.regions.sweep import sweep as sweep
     from .analyses.regions.uncertainty import uncertainty as uncertainty
+    from .analyses.results.convert import to_control as to_control
+    from .analyses.results.convert import to_scipy as to_scipy
+    from .analyses.stability.analyze import analyze as analyze
+    from .analyses.stability.approximation import approximation as approximation
+    from .analyses.stability.compare import compare as compare
+    from .analyses.stability.criteria import criteria as criteria
+    from .analyses.stability.critical import critical as critical
+    from .analyses.stability.limits import limit as limit
+    from .analyses.stability.locus import locus as locus
+    from .analyses.stability.pitching import moment_line as moment_line
+    from .analyses.stability.pitching import static_margin as static_margin
+    from .analyses.stability.remedies import remedies as remedies
+    from .analyses.stability.routh import routh as routh
+    from .analyses.stability.sensitivity import sensitivity as sensitivity
+    from .analyses.stability.static import static_stability as static_stability
     from .analyses.stability.verdict import verdict as verdict
     from .catalogue import find_model as find_model
     from .catalogue import load as load

@@ -13,11 +13,11 @@ from scipy.signal import StateSpace
 
 import control
 from ucrit import UcritError, critical, load, modes
+from ucrit.analyses.regions.stability_map import stability_map
+from ucrit.analyses.regions.sweep import sweep
 from ucrit.analyses.results.convert import to_control, to_scipy
 from ucrit.analyses.stability.locus import locus
 from ucrit.analyses.stability.sensitivity import sensitivity
-from ucrit.analyses.regions.stability_map import stability_map
-from ucrit.analyses.regions.sweep import sweep
 from ucrit.core.compiled import state_space
 from ucrit.core.errors import MissingExtraError
 

@@ -13,9 +13,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ucrit import Model, UcritError, coordinate, find_model, load, param, stability_map
+from ucrit.analyses.linear.modes import eigenvalues, growth
 from ucrit.analyses.stability import judge
 from ucrit.analyses.stability.judge import settle
-from ucrit.analyses.linear.modes import eigenvalues, growth
 from ucrit.core import kernels, rows
 from ucrit.core.compiled import compiled
 from ucrit.core.errors import MissingExtraError

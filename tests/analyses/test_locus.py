@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from ucrit import UcritError, critical, load, modes
+from ucrit.analyses.linear.modes import eigenvalues
 from ucrit.analyses.stability.dense import dense_branches
 from ucrit.analyses.stability.locus import FARTHEST, SMALLEST, STEP, locus
-from ucrit.analyses.linear.modes import eigenvalues
 from ucrit.catalogue import vehicle_names
 
 

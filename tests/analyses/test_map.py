@@ -6,10 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ucrit import UcritError, find_model, load
-from ucrit.analyses.stability import judge
 from ucrit.analyses.linear.modes import eigenvalues
 from ucrit.analyses.linear.modes import growth as growth_of
 from ucrit.analyses.regions.stability_map import stability_map
+from ucrit.analyses.stability import judge
 from ucrit.catalogue import vehicle_names
 from ucrit.core.compiled import compiled
 from ucrit.core.possible import allowed

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from ucrit import UcritError, load
-from ucrit.analyses.results.convert import to_control
 from ucrit.analyses.linear.response import frequency_response, impulse_response, step_response
 from ucrit.analyses.linear.transfer import transfer
+from ucrit.analyses.results.convert import to_control
 
 CASES = [("understeering-car", "delta_r"), ("car-and-caravan", "delta_f"), ("released-steering-wheel", "tau"),
          ("oversteering-car-on-the-road", "delta_f"), ("caravan-active-steering", "omega")]  # fmt: skip

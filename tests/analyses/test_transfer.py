@@ -5,8 +5,8 @@ import pytest
 import sympy as sp
 
 from ucrit import UcritError, find_model, frequency_response, load, modes
-from ucrit.analyses.results.convert import to_control
 from ucrit.analyses.linear.transfer import transfer
+from ucrit.analyses.results.convert import to_control
 
 VEHICLES = ["understeering-car", "oversteering-car-on-the-road", "released-steering-wheel", "car-and-caravan",
             "caravan-active-steering"]  # fmt: skip

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from ucrit import critical, load
-from ucrit.analyses.stability.exact import exact_search
 from ucrit.analyses.linear.modes import eigenvalues
+from ucrit.analyses.stability.exact import exact_search
 from ucrit.core.derive import symbolic
 
 M = [[80.81722, 2.31941332208709], [2.31941332208709, 0.29784188199686]]

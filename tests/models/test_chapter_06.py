@@ -6,10 +6,10 @@ import sympy as sp
 from agreement import SETS, agree, crossing, growth, varied
 
 from ucrit import criteria, critical, find_model, load, modes, verdict
-from ucrit.analyses.stability.limits import limit
-from ucrit.analyses.stability.static import static_stability
 from ucrit.analyses.linear.steady import steady_turn
 from ucrit.analyses.linear.transfer import transfer
+from ucrit.analyses.stability.limits import limit
+from ucrit.analyses.stability.static import static_stability
 from ucrit.checks import check_model
 from ucrit.core.derive import symbolic
 from ucrit.core.linear import linear_system

@@ -13,9 +13,9 @@ from .wrap import number, shorten
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from ..analyses.linear.modes import Mode
     from ..analyses.stability.analyze import Analysis
     from ..analyses.stability.critical import Critical
-    from ..analyses.linear.modes import Mode
     from ..analyses.stability.remedies import Remedy
 
 CLOSED_FORM_LINES = 6

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from ..analyses.stability.advice import DIGITS
 from ..analyses.results.digits import decimal_text, rounded
+from ..analyses.stability.advice import DIGITS
 
 STEP = 2
 """Columns by which a line is indented for each bracket that is open where it starts."""

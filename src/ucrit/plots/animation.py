@@ -64,8 +64,8 @@ def animate(
     Traceback (most recent call last):
     ucrit.core.errors.UcritError: an animation is written to a file that ends in .gif, .mp4, .html, got 'cart.avi'
     """
-    from ..analyses.results.convert import write_whole
     from ..analyses.motion.scene import Scene, scene
+    from ..analyses.results.convert import write_whole
 
     ending = film_format(path)
     if isinstance(result, Scene):

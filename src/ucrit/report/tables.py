@@ -14,9 +14,9 @@ from . import formulas
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from ..analyses.linear.modes import Mode
     from ..analyses.stability.analyze import Analysis
     from ..analyses.stability.critical import Critical
-    from ..analyses.linear.modes import Mode
     from ..core.model import Model
 
 KINDS = {

@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from ..analyses.about.listing import listing
+from ..analyses.regions.stability_map import stability_map
+from ..analyses.regions.uncertainty import uncertainty
 from ..analyses.stability.advice import advice
 from ..analyses.stability.analyze import Analysis, analyze
 from ..analyses.stability.critical import CriticalValues, critical
-from ..analyses.about.listing import listing
 from ..analyses.stability.locus import Locus, locus
 from ..analyses.stability.remedies import Remedy
-from ..analyses.regions.stability_map import stability_map
-from ..analyses.regions.uncertainty import uncertainty
 from ..analyses.stability.wording import describe, speed_text
 from ..core.errors import UcritError, near_match
 from ..plots.branches import marks, upper, view

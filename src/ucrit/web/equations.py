@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..analyses.stability.analyze import analyze
 from ..analyses.about.show import show
+from ..analyses.stability.analyze import analyze
 from ..report import derivation, tables
 from .answers import say_speed
 

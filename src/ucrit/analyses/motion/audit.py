@@ -18,9 +18,9 @@ from ...core.html import Rich
 from ...core.model import Model
 from ...core.motion import Motion, motion
 from ...numerics.prony import fit_exponents
+from ..linear.modes import Mode, modes, rigid_positions
 from .follow import Drive, Follower
 from .manoeuvres import constant
-from ..linear.modes import Mode, modes, rigid_positions
 
 Array = npt.NDArray[Any]
 

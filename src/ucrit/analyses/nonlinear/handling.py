@@ -18,8 +18,8 @@ import numpy.typing as npt
 from ...core.errors import UcritError
 from ...core.model import Model
 from ...core.units import to_si
-from ..results.convert import Series, Table, Tabular
 from ..linear.steady import GRAVITY
+from ..results.convert import Series, Table, Tabular
 from .steady_family import SteadyFamily, steady_family
 
 Array = npt.NDArray[Any]

@@ -15,8 +15,8 @@ import numpy as np
 from ...core.errors import UcritError
 from ...core.html import Rich
 from ...core.model import Model
-from .handling_words import acceleration
 from ..linear.steady import GRAVITY
+from .handling_words import acceleration
 from .steady_family import steady_family
 
 SMALL = 1e-3

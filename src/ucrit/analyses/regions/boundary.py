@@ -21,8 +21,8 @@ from ...core.model import Model
 from ...core.units import to_si
 from ...numerics.enclosures import Enclosure, EnclosureFunctions, excluded
 from ...numerics.rounded import conditions
-from .boundary_result import StabilityBoundary, in_lines
 from ..stability.judge import BLOCK, decide, judged_points, settle
+from .boundary_result import StabilityBoundary, in_lines
 from .lattice import Lattice, crossed, differing, simplices, subdivided
 from .ranges import parse_range
 from .stability_map import StabilityMap

@@ -18,10 +18,10 @@ from ...core.errors import UcritError, near_match
 from ...core.model import Model
 from ...core.possible import holds
 from ...numerics.rigorous import Boxes, Proved, exact_pair
+from ..linear.modes import eigenvalues
 from .certificate import Certificate, Counterexample, sense_of
 from .enclosing import Enclosing, within
 from .exact_ranges import exact_range
-from ..linear.modes import eigenvalues
 
 Array = npt.NDArray[Any]
 Progress = Callable[[int, int], None]

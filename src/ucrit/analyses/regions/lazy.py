@@ -9,8 +9,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ...core.model import Model
-from .chunks import Job, job
 from ..results.convert import needed
+from .chunks import Job, job
 
 Array = npt.NDArray[Any]
 

@@ -16,9 +16,9 @@ import numpy.typing as npt
 
 from ...core.errors import UcritError
 from ...core.model import Model
+from ..linear.modes import eigenvalues, growth, rigid_positions
 from ..results.convert import Series, Table, Tabular, unit_of
 from ..stability.judge import decide
-from ..linear.modes import eigenvalues, growth, rigid_positions
 from .sweep import MAX_BYTES, read_ranges
 
 Array = npt.NDArray[Any]

@@ -22,8 +22,8 @@ import numpy.typing as npt
 from ...core.compiled import compiled, direction
 from ...core.errors import UcritError
 from ...core.model import Model
-from .chunks import Job, Place, job
 from ..results.convert import needed
+from .chunks import Job, Place, job
 
 Array = npt.NDArray[Any]
 Progress = Callable[[int, int], None]

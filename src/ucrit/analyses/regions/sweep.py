@@ -14,8 +14,8 @@ from ...core.errors import UcritError
 from ...core.model import Model
 from ...numerics.hurwitz import right_half_plane
 from ...numerics.hurwitz import stable as hurwitz_stable
-from ..results.convert import Series, Table, Tabular, complex_series, unit_of
 from ..linear.modes import eigenvalues, growth, rigid_positions
+from ..results.convert import Series, Table, Tabular, complex_series, unit_of
 from .ranges import parse_range
 
 Array = npt.NDArray[Any]

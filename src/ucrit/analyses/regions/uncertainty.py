@@ -14,10 +14,10 @@ from ...core.errors import UcritError
 from ...core.model import Model
 from ...core.units import to_si
 from ..results.convert import Series, Table, Tabular, unit_of
+from ..stability.wording import speed_text
 from .critical_many import Crossings, crossings
 from .influence import Influence, influence
 from .sampling import check_count, drawn, toleranced, unit_points
-from ..stability.wording import speed_text
 
 Array = npt.NDArray[Any]
 Progress = Callable[[int, int], None]

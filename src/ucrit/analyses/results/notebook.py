@@ -11,17 +11,17 @@ from ...core.html import lines, math_of, quantity, table, text, with_unit
 from .digits import decimal_text, rounded
 
 if TYPE_CHECKING:
+    from ..linear.modes import Mode
+    from ..regions.stability_map import StabilityMap
     from ..stability.advice import Advice
     from ..stability.analyze import Analysis
-    from .convert import Table, Tabular
     from ..stability.criteria import Boundary, Criteria
     from ..stability.critical import Critical, CriticalValues
     from ..stability.limits import LimitResult
-    from ..linear.modes import Mode
     from ..stability.remedies import Remedy
     from ..stability.sensitivity import Sensitivity
-    from ..regions.stability_map import StabilityMap
     from ..stability.verdict import Verdict
+    from .convert import Table, Tabular
 
 ROWS, COLUMNS = 8, 8
 """How much of a table is shown."""

@@ -12,9 +12,9 @@ from ...catalogue import load
 from ...core.compiled import direction
 from ...core.errors import UcritError
 from ...core.model import Model
+from ..linear.modes import Mode, modes
 from .criteria import Criteria, Criterion, criteria
 from .critical import Critical, CriticalValues, critical
-from ..linear.modes import Mode, modes
 from .remedies import Remedy, remedies
 from .verdict import Verdict, verdict
 from .wording import describe

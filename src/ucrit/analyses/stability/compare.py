@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from ...core.compiled import direction
 from ...core.errors import UcritError
 from ...core.model import Model
-from .critical import CriticalValues, critical
 from ..linear.modes import Mode, modes
+from .critical import CriticalValues, critical
 from .static_term import static_term
 from .verdict import Verdict, verdict
 

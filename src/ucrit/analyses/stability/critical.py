@@ -18,10 +18,10 @@ from ...core.compiled import compiled, direction
 from ...core.errors import UcritError, near_match
 from ...core.model import Model
 from ...core.possible import allowed
+from ..linear.modes import Mode, modes
 from ..results.convert import Series, Table, Tabular
 from .criteria import Boundary, criteria
 from .exact import exact_search
-from ..linear.modes import Mode, modes
 from .scan import scan
 
 NEAR = 1e-9

@@ -19,8 +19,8 @@ from ...core.model import Model
 from ...numerics.matrices import eigenvalues_with_errors
 from ...numerics.rounded import judged, slacks
 from ...numerics.routh import routh
-from .grids import Grid, Tile, flat, tiles
 from ..linear.modes import growth
+from .grids import Grid, Tile, flat, tiles
 
 Array = npt.NDArray[Any]
 

@@ -14,10 +14,10 @@ from ...core.errors import UcritError
 from ...core.model import Model
 from ...core.possible import allowed
 from ...numerics.tracking import track_adaptive
+from ..linear.modes import eigensystem, eigenvalues, growth, modes
 from ..results.convert import Series, Table, Tabular, complex_series, unit_of
 from .critical import critical, parameter_name
 from .dense import dense_branches
-from ..linear.modes import eigensystem, eigenvalues, growth, modes
 
 Array = npt.NDArray[Any]
 

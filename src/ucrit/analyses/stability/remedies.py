@@ -16,8 +16,8 @@ from ...core.model import Model
 from ...core.possible import allowed
 from ...numerics.hurwitz import stable
 from ..results.convert import Series, Table, Tabular
-from .critical import critical
 from ..results.digits import decimal_text, rounded
+from .critical import critical
 
 Array = npt.NDArray[Any]
 

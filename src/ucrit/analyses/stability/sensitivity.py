@@ -14,9 +14,9 @@ import numpy.typing as npt
 
 from ...core.compiled import compiled, direction, labels, state_slopes, state_space
 from ...core.model import Model
+from ..linear.modes import eigensystem, modes, rigid_positions
 from ..results.convert import Series, Table, Tabular, complex_series, unit_of
 from .critical import Critical, critical
-from ..linear.modes import eigensystem, modes, rigid_positions
 
 Array = npt.NDArray[Any]
 
