@@ -13,7 +13,7 @@ from click.testing import Result
 
 import ucrit
 from ucrit.analyses.about.show import show
-from ucrit.catalogue import model_names, vehicle_names
+from ucrit.catalogue import TIRES, model_names, vehicle_names
 from ucrit.cli.app import COMMANDS
 
 Run = Callable[..., Result]
@@ -166,6 +166,7 @@ def test_examples_in_the_help_run(run: Run, tmp_path: Path, monkeypatch: pytest.
     monkeypatch.setattr("ucrit.web.serve.listen", lambda *_: socket.create_server(("127.0.0.1", 0)))
 
     Path("mine.bonds").write_text(run("bonds", "oscillator", "--text").stdout)
+    Path("mine.tir").write_text((TIRES / "pacejka-205-60r15.tir").read_text())
     tried = 0
     for name in COMMANDS:
         for line in re.findall(rf"^    (ucrit {name} .*)$", run(name, "--help").stdout, re.MULTILINE):

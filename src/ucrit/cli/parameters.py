@@ -83,11 +83,11 @@ def assignments(texts: Iterable[str], example: str, thing: str = "parameter") ->
 
 def load_vehicle(name: str, changes: dict[str, Any] | None = None, at_speed: str | None = None) -> Any:
     """Return a vehicle; a model's name in its place gets told how to make a vehicle of it."""
-    from ..catalogue import BONDS, load, model_names, vehicle_names
+    from ..catalogue import load, model_names, vehicle_names
     from ..core.errors import UcritError
 
     known = name not in vehicle_names() and name.replace("_", "-") in model_names() and not Path(name).exists()
-    if known or re.search(rf"\.py(:\w+)?$|{re.escape(BONDS)}$", name):
+    if known or re.search(r"\.py(:\w+)?$", name):
         raise UcritError(f"'{name}' is a model, not a vehicle; 'ucrit new {name} > mine.toml' gives a file to fill in")
     vehicle = load(name, changes, at_speed)
     speed = type(vehicle).declaration.speed
