@@ -9,6 +9,7 @@ given numbers; all their roots are isolated and counted exactly.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
@@ -209,7 +210,7 @@ def _describe(vehicle: Model, name: str, value: float, kinds: set[str], stable: 
     closed = _closed_form(vehicle, name, value, kind)
     frequency = mode.frequency_hz if kind == "flutter" else 0.0
     unit = type(vehicle).declaration.parameters[name].unit
-    return Critical(name, value, unit, kind, frequency, stable, mode.name.rpartition(" ")[0] + _going(kind), closed)
+    return Critical(name, value, unit, kind, frequency, stable, _named_by(mode) + _going(kind), closed)
 
 
 def _fastest_beside(vehicle: Model, name: str, value: float, stable: str) -> Mode:
@@ -227,6 +228,11 @@ def _closed_form(vehicle: Model, name: str, value: float, kind: str) -> Boundary
         return None
     found = [b for c in conditions if c.failure == kind for b in c.boundaries if b.parameter == name]
     return next((b for b in found if _matches(b, vehicle, value)), None)
+
+
+def _named_by(mode: Mode) -> str:
+    """Return the motion that a mode is named after: ``wheel`` of ``wheel decay 2``."""
+    return re.sub(r" \w+( \d+)?$", "", mode.name)
 
 
 def _going(kind: str) -> str:
