@@ -19,7 +19,7 @@ class Sled(Model):
 
 
 @pytest.mark.parametrize("command", ["analyze", "sweep"])
-@pytest.mark.parametrize("name", ["sled.py", "sled.py:Sled", "sled.bonds"])
+@pytest.mark.parametrize("name", ["sled.py", "sled.py:Sled"])
 def test_a_models_file_is_no_vehicle(run, command, name):
     done = run(command, name, *(["m=1:2"] if command == "sweep" else []))
     assert done.exit_code == 2

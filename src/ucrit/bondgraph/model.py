@@ -95,7 +95,8 @@ def model_from_text(text: str, name: str = "BondGraph", where: str = "bond graph
 
     Examples
     --------
-    >>> model = model_from_text("param m [kg] above 0: mass\\n1 x\\nI mass = m\\nR drag = 2*m\\nx -> mass\\nx -> drag")
+    >>> text = "param m [kg] above 0: mass\\nparam c [N s/m]: drag\\n1 x\\nI mass = m\\nR drag = c\\nx -> mass\\nx -> drag"
+    >>> model = model_from_text(text)
     >>> list(model.declaration.variables)
     ['p_mass']
     """

@@ -24,7 +24,7 @@ def statements(found: StateEquations) -> Iterator[tuple[Element, Any, Any]]:
     >>> from ucrit.bondgraph import C, Graph, I, one
     >>> from ucrit.bondgraph.equations import state_equations
     >>> graph = Graph(one("x"), I("mass", 2), C("spring", 3), "x -> mass", "x -> spring")
-    >>> [(str(e), left, right) for e, left, right in statements(state_equations(graph))][1:]
+    >>> [(str(e), left, right) for e, left, right in statements(state_equations(graph))][2:]
     [("I 'mass'", p_mass, p_mass), ("C 'spring'", q_spring, q_spring)]
     """
     read = _readings(found)

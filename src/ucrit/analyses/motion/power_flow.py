@@ -101,7 +101,7 @@ def power_flow(simulation: Simulation) -> PowerFlow:
     >>> from ucrit import load, power_flow, simulate
     >>> flow = power_flow(simulate(load("caravan"), 2, {"theta": "3 deg"}))
     >>> print(flow.bonds[18], f"{flow.powers[0, 18]:.2f} W")
-    19: axle -> tire 4564.19 W
+    19: axle -> tire 6850.76 W
     >>> flow.imbalance < 1e-6
     True
     """
