@@ -95,10 +95,10 @@ def model_from_text(text: str, name: str = "BondGraph", where: str = "bond graph
 
     Examples
     --------
-    >>> text = "param m [kg] above 0: mass\\nparam c [N s/m]: drag\\n1 x\\nI mass = m\\nR drag = c\\nx -> mass\\nx -> drag"
+    >>> text = "param m [kg] above 0: mass\\nparam c [N s/m]: drag\\n1 x\\nI m = m\\nR c = c\\nx -> m\\nx -> c"
     >>> model = model_from_text(text)
     >>> list(model.declaration.variables)
-    ['p_mass']
+    ['p_m']
     """
     from .text import declared_symbols, read_sheet
 
