@@ -80,3 +80,10 @@ def test_the_version_is_the_projects():
     text = (ROOT / "pyproject.toml").read_text()
     assert f'version = "{ucrit.__version__}"' in text
     assert ucrit.__version__ in (ROOT / "CHANGELOG.md").read_text()
+
+
+def test_a_star_brings_all_public_names_but_hides_none_of_python():
+    names: dict[str, object] = {}
+    exec("from ucrit import *", names)
+    assert {"load", "analyze", "Model"} <= names.keys()
+    assert "list" not in names

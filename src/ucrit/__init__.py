@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import builtins
 import importlib
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
@@ -191,6 +192,8 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
 
 def __getattr__(name: str) -> Any:
     """Import public names when they are first used: starting up stays as quick as importing NumPy."""
+    if name == "__all__":  # what a star brings: all but the names that would hide Python's own
+        return sorted(_PUBLIC.keys() - vars(builtins).keys())
     if name not in _PUBLIC:
         raise AttributeError(f"module 'ucrit' has no attribute '{name}'")
     place = _PUBLIC[name]
