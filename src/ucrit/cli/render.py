@@ -78,13 +78,11 @@ def _critical(page: Page, found: Analysis) -> None:
 
 
 def _event(c: Critical) -> str:
-    subject = c.mode.rpartition(" ")[0]
-    what = "oscillation" if c.kind == "flutter" else "motion"
     at = f" at {number(c.frequency_hz)} Hz" if c.frequency_hz else ""
     sides = {"below": "below", "above": "above"}
     if c.value < 0:  # backing up, the lower value is the higher speed
         sides = {"below": "above", "above": "below"}
-    return f"{c.kind} of the {subject} {what}{at}; stable {sides[c.stable]}"
+    return f"{c.kind} of the {c.motion}{at}; stable {sides[c.stable]}"
 
 
 def _modes(page: Page, found: Analysis) -> None:

@@ -55,7 +55,7 @@ def of_locus(path: Locus, found: CriticalValues) -> list[Drawing]:
     unit = unit_text(path.unit)
     ends = f"from {number(path.values[0], 3)} to {number(path.values[-1], 3)} {unit}".strip()
     told = "; ".join(
-        f"{c.kind} of the {c.mode} at {number(c.value, 4)} {unit}, stable {c.stable} it".replace("  ", " ")
+        f"{c.kind} of the {c.motion} at {number(c.value, 4)} {unit}, stable {c.stable} it".replace("  ", " ")
         for c in found
         if path.values[0] <= c.value <= path.values[-1]
     )

@@ -62,11 +62,16 @@ class Critical:
     def __float__(self) -> float:
         return self.value
 
+    @property
+    def motion(self) -> str:
+        """What flutters or diverges: ``lateral oscillation``, ``sideslip motion``."""
+        return re.sub(" divergence$", " motion", self.mode)
+
     def __str__(self) -> str:
         at = f" at {self.frequency_hz:.4g} Hz" if self.frequency_hz else ""
         value = f"{self.parameter} = {self.value:.12g}{'' if self.unit == '1' else ' ' + self.unit}"
         kind = "root through infinity" if self.kind == "order" else self.kind
-        return f"{value}: {kind} of the {self.mode}{at}, stable {self.stable}"
+        return f"{value}: {kind} of the {self.motion}{at}, stable {self.stable}"
 
     def _repr_html_(self) -> str:
         from ..results import notebook

@@ -12,7 +12,7 @@ function cell(row, text, name = "") {
 export function criticalWords(list, answer, system) {
   const lines = answer.critical.map(c => {
     const at = c.hertz ? ` at ${read(c.hertz, 3)} Hz` : "", kind = c.kind === "order" ? "a root passes through infinity" : c.kind;
-    return `${answer.locus?.parameter} = ${quantity(c.value, c.unit, system, 6)}: ${kind} of the ${c.mode}${at}, stable ${c.stable}`;
+    return `${answer.locus?.parameter} = ${quantity(c.value, c.unit, system, 6)}: ${kind} of the ${c.mode.replace(/ divergence$/, " motion")}${at}, stable ${c.stable}`;
   });
   list.replaceChildren(...lines.map(text => Object.assign(document.createElement("li"), { textContent: text })));
 }
