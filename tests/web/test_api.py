@@ -297,7 +297,7 @@ class OnTires(ucrit.Model):
 
 
 def test_a_tire_file_is_not_read(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(ucrit.catalogue, "find_model", lambda name: OnTires)
+    monkeypatch.setattr(ucrit.catalogue.vehicles, "find_model", lambda name: OnTires)
     text = 'model = "on-tires"\n[parts]\ntire = "{}"\n[parameters]\n'
     for file in ("/etc/passwd.tir", "x.TIR:measured"):
         with pytest.raises(UcritError, match="is a file; name a law or a tire of the catalogue"):
