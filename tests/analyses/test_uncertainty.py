@@ -1,5 +1,7 @@
 """Distributions of critical speeds: closed forms, one vehicle at a time, and plain random numbers say the same."""
 
+import re
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -9,7 +11,7 @@ from scipy.stats import norm, truncnorm
 from ucrit import UcritError, critical, find_model, load, plot, uncertainty
 from ucrit.analyses.regions.critical_many import crossings
 from ucrit.analyses.regions.sampling import drawn, unit_points
-from ucrit.catalogue import vehicle_names
+from ucrit.catalogue import VEHICLES, vehicle_names
 from ucrit.core.compiled import compiled, direction
 from ucrit.core.possible import allowed
 from ucrit.core.tolerances import Tolerance, Tolerances
@@ -204,3 +206,10 @@ def test_values_that_are_impossible_together_are_refused():
     vehicle = load(name)
     with pytest.raises(UcritError, match="no principal moment of inertia"):
         uncertainty(with_tolerances(vehicle, Tolerance("I_2", 3 * float(vehicle.values["I_2"]))), samples=64)
+
+
+def test_a_vehicle_without_any_stable_speed_has_no_critical_one(tmp_path):
+    path = tmp_path / "falling.toml"
+    text = (VEHICLES / "motorcycle-lean.toml").read_text()
+    path.write_text(re.sub(r"(?m)^m = (\d+)", r"m = { value = \1, sd = 5 }", text))
+    assert str(uncertainty(load(path), samples=64)) == "unstable at every speed, in 64 cases"

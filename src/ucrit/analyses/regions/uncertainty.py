@@ -119,6 +119,8 @@ class Uncertainty(Tabular):
         say
             Writes a speed [m/s].
         """
+        if self.always == 1:
+            return f"unstable at every speed, in {self.samples} cases"
         low, middle, high = (self.quantile(share) for share in QUANTILES)
         if np.isinf(low):
             text = f"in {1 - self.never:.3g} of all cases stability is lost at some speed"
