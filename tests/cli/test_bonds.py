@@ -41,7 +41,7 @@ def test_a_graph_is_printed_in_80_columns(run: Run) -> None:
 
 @pytest.mark.parametrize(("name", "start"), [("g.svg", b"<?xml"), ("g.png", b"\x89PNG"), ("G.PDF", b"%PDF")])
 def test_a_graph_is_drawn(run: Run, tmp_path: Path, name: str, start: bytes) -> None:
-    result = run("bonds", "oscillator", "--draw", str(tmp_path / name))
+    result = run("bonds", "oscillator", "-o", str(tmp_path / name))
     assert result.exit_code == 0
     assert (tmp_path / name).read_bytes().startswith(start)
     assert f"The drawing is in {tmp_path / name}".replace("\n", "") in result.stdout.replace("\n", "")
@@ -73,8 +73,8 @@ def test_a_model_written_as_text_is_read_back(run: Run, tmp_path: Path) -> None:
         (("navion",), "ucrit: airplane-longitudinal-coefficients states no bond graph"),
         (("caravan", "--json", "--text"), "ucrit: --text and --json both print the graph: give one of them"),
         (("none.bonds",), "ucrit: there is no file 'none.bonds'"),
-        (("trailer", "--draw", "x.gif"), "ucrit: a drawing is written to a file ending in .png, .svg, .pdf, got"),
-        (("trailer", "--draw", "/no/such/x.png"), "ucrit: '/no/such/x.png' cannot be written"),
+        (("trailer", "-o", "x.gif"), "ucrit: a drawing is written to a file ending in .png, .svg, .pdf, got"),
+        (("trailer", "-o", "/no/such/x.png"), "ucrit: '/no/such/x.png' cannot be written"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_is_one_sentence(run: Run, arguments: tuple[str, ...], sentence: str) -> None:

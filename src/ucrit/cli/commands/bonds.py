@@ -10,10 +10,10 @@ from ..parameters import Name
 
 @click.command("bonds", short_help="Causality and state equations of a bond graph; draw it.")
 @click.argument("subject", metavar="SUBJECT", type=Name("model", "vehicle", suffix=".bonds"))
-@click.option("--draw", metavar="FILE", type=click.Path(), help="Draw the graph: .svg, .png or .pdf.")
+@click.option("-o", "--out", metavar="FILE", type=click.Path(), help="Draw the graph: .svg, .png or .pdf.")
 @click.option("--text", "as_text", is_flag=True, help="Print the graph as text, to be edited, and nothing else.")
 @click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
-def command(subject: str, draw: str | None, as_text: bool, as_json: bool) -> None:
+def command(subject: str, out: str | None, as_text: bool, as_json: bool) -> None:
     """Show a bond graph: elements, bonds with their causality, findings, state equations.
 
     SUBJECT is the name of a model or vehicle, a Python file with a model, a vehicle file, or a bond graph as text
@@ -23,7 +23,7 @@ def command(subject: str, draw: str | None, as_text: bool, as_json: bool) -> Non
     \b
     Examples:
       ucrit bonds trailer
-      ucrit bonds trailer --draw trailer.svg
+      ucrit bonds trailer -o trailer.svg
       ucrit bonds oscillator --text > mine.bonds
       ucrit bonds mine.bonds
       ucrit bonds caravan --json
@@ -33,13 +33,13 @@ def command(subject: str, draw: str | None, as_text: bool, as_json: bool) -> Non
     from ...analyses.about.bonds import bonds
     from ...core.errors import UcritError
 
-    if draw is not None and not draw.lower().endswith(PICTURES):
-        raise UcritError(f"a drawing is written to a file ending in {', '.join(PICTURES)}, got '{draw}'")
+    if out is not None and not out.lower().endswith(PICTURES):
+        raise UcritError(f"a drawing is written to a file ending in {', '.join(PICTURES)}, got '{out}'")
     if as_text and as_json:
         raise UcritError("--text and --json both print the graph: give one of them")
     found = bonds(subject)
-    if draw is not None:
-        write_picture(found, draw)
+    if out is not None:
+        write_picture(found, out)
     if as_text:
         click.echo(found.text, nl=False)
         return
@@ -51,4 +51,4 @@ def command(subject: str, draw: str | None, as_text: bool, as_json: bool) -> Non
     from ..render_bonds import show_bonds
     from ..terminal import terminal
 
-    show_bonds(terminal(), found, draw)
+    show_bonds(terminal(), found, out)
