@@ -214,11 +214,15 @@ def _rounded(factor: PolyElement) -> Any:
         return None
     return sp.Add(
         *(
-            sp.Float(sp.Rational(int(c), largest), DIGITS)
-            * sp.Mul(*(g**e for g, e in zip(factor.ring.symbols, monom, strict=True)))
+            _double(int(c) / largest) * sp.Mul(*(g**e for g, e in zip(factor.ring.symbols, monom, strict=True)))
             for monom, c in factor.terms()
         )
     )
+
+
+def _double(value: float) -> Any:
+    """Return a double with the fewest digits that tell it."""
+    return sp.Integer(value) if value.is_integer() else sp.Float(repr(value))
 
 
 def _boundaries(factor: PolyElement, functions: Any) -> list[dict[str, Any]]:
