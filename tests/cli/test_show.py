@@ -8,12 +8,15 @@ from html import unescape
 import numpy as np
 import pytest
 import sympy as sp
+from sympy.core.function import AppliedUndef
 
 from ucrit import show
+from ucrit.analyses.linear.pieces import named_pieces
 from ucrit.catalogue import find_model, load
 from ucrit.core.compiled import coefficients
 from ucrit.core.derive import symbolic
 from ucrit.core.errors import UcritError
+from ucrit.core.trace import Traced, written
 
 MODELS = ["car", "trailer", "caster", "trailer-kinematic", "wheelset-kinematic", "cart-inertial"]
 
@@ -21,18 +24,55 @@ MODELS = ["car", "trailer", "caster", "trailer-kinematic", "wheelset-kinematic",
 @pytest.mark.parametrize("name", MODELS)
 def test_tidied_equations_are_the_stated_ones(name: str) -> None:
     traced = symbolic(find_model(name)).traced
-    symbols = [*traced.parameters.values(), *traced.u, *(s for chain in traced.q for s in chain)]
-    rng = np.random.default_rng(7)
-    values = {
-        s: sp.Float(str(round(float(v), 6)), 30)
-        for s, v in zip(symbols, rng.uniform(0.2, 1, len(symbols)), strict=True)
-    }
-    primed = {s.name: sp.Symbol(s.name.replace("'", "_dot")) for s in symbols}
+    values = _numbers(traced)
+    primed = {s.name: sp.Symbol(s.name.replace("'", "_dot")) for s in values}
     for stated, formula in zip(traced.residuals, show(name).equations, strict=True):
         text = formula.text.replace("'", "_dot")
         read = sp.sympify(text, locals={s.name: s for s in primed.values()})
         swapped = read.subs({primed[s.name]: v for s, v in values.items()})
         assert abs(sp.N(swapped - stated.subs(values), 20)) < 1e-15
+
+
+@pytest.mark.parametrize("name", ["caravan-steered-by-yaw-rate", "motorcycle-steered-at-both-ends"])
+def test_law_put_into_the_vehicles_equations_gives_the_closed_loop(name: str) -> None:
+    traced = symbolic(type(load(name))).traced
+    told = written(traced)
+    assert told.law
+    values = _numbers(traced)
+    for stated, residual in zip(told.residuals, traced.residuals, strict=True):
+        assert abs(sp.N((_put_in(stated, told.definitions) - residual).subs(values), 20)) < 1e-15
+    assert set(show(load(name)).definitions) == {s.name for s in told.definitions}
+
+
+def test_repeated_pieces_of_long_equations_have_names() -> None:
+    traced = symbolic(find_model("car-four-wheels")).traced
+    told = written(traced).residuals
+    found, pieces = named_pieces(told, ["p_1", "w"])
+    assert pieces and all(s.name.startswith("z_") for s in pieces)
+    values = _numbers(traced)
+    for short, residual in zip(found, told, strict=True):
+        assert abs(_value(_put_in(short, pieces), values) - _value(residual, values)) < 1e-12
+    longest = max(len(f.text) for f in show("car-four-wheels").equations)
+    assert longest < max(len(str(e)) for e in told) / 10
+
+
+def _put_in(expression: sp.Expr, definitions: dict[sp.Symbol, sp.Expr]) -> sp.Expr:
+    while expression.free_symbols & definitions.keys():
+        expression = expression.xreplace(definitions)
+    return expression
+
+
+def _value(expression: sp.Expr, values: dict[sp.Symbol, sp.Float]) -> sp.Expr:
+    """Return a number; a force without a formula counts as a sum of its arguments with weights."""
+    while forces := expression.atoms(AppliedUndef):
+        expression = expression.xreplace({f: sum((k + 2) * a for k, a in enumerate(f.args)) for f in forces})
+    return sp.N(expression.subs(values), 20)
+
+
+def _numbers(traced: Traced) -> dict[sp.Symbol, sp.Float]:
+    symbols = [*traced.parameters.values(), *traced.u, *(s for chain in traced.q for s in chain)]
+    chosen = np.random.default_rng(7).uniform(0.2, 1, len(symbols))
+    return {s: sp.Float(str(round(float(v), 6)), 30) for s, v in zip(symbols, chosen, strict=True)}
 
 
 @pytest.mark.parametrize("name", MODELS)

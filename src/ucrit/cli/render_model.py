@@ -141,6 +141,10 @@ def _equations(page: Page, found: ModelDescription) -> None:
     page.heading("Equations of motion (x' is the rate of x)")
     for equation in found.equations:
         page.formula(f"{equation} = 0", indent=2)
+    if found.definitions:
+        page.heading("where")
+    for name, formula in found.definitions.items():
+        page.formula(f"{name} = {formula}", indent=2)
     page.heading("Linear about the basic motion: " + _linear(found))
     page.line(f"  q = [{', '.join(found.unknowns)}]")
     if found.inputs:

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from ..analyses.results.digits import decimal_text, rounded
 from ..analyses.stability.advice import DIGITS
+
+Place = tuple[int, int, int]
 
 STEP = 2
 """Columns by which a line is indented for each bracket that is open where it starts."""
@@ -19,27 +21,30 @@ def wrap_formula(text: str, width: int) -> list[str]:
     ['a*(b + c)*(d - e)', '+ f*(g + h) > 0']
     """
     lines: list[str] = []
-    depth, rest = 0, text
+    places = list(_breaks(text))
+    start = level = first = 0
     while True:
-        indent = min(STEP * depth, width // 2)
+        indent = min(STEP * level, width // 2)
         room = width - indent
-        if len(rest) <= room:
-            return [*lines, " " * indent + rest]
-        at, level = _best_break(rest, room)
-        lines.append(" " * indent + rest[:at].rstrip())
-        depth, rest = max(depth + level, 0), rest[at:].lstrip()
+        if len(text) - start <= room:
+            return [*lines, " " * indent + text[start:]]
+        while first < len(places) and places[first][0] <= start:
+            first += 1
+        end, level = _best_break(places, first, start, room) or (len(text), 0)
+        lines.append(" " * indent + text[start:end].rstrip())
+        start = end + len(text[end:]) - len(text[end:].lstrip())
 
 
-def _best_break(text: str, room: int) -> tuple[int, int]:
-    """Return where to break within the room, and how many brackets are then open."""
-    possible = [b for b in _breaks(text) if b[0] > 0]
-    breaks = [b for b in possible if b[0] <= room] or possible[:1] or [(len(text), 0, 0)]
-    late = [b for b in breaks if b[0] > room / 3] or breaks
-    at, depth, _ = min(late, key=lambda b: (b[1:], -b[0]))
-    return at, depth
+def _best_break(places: Sequence[Place], first: int, start: int, room: int) -> tuple[int, int] | None:
+    """Return where to break within the room, and how many brackets are open there."""
+    past = next((i for i in range(first, len(places)) if places[i][0] > start + room), len(places))
+    near = places[first:past] or places[first : first + 1]
+    late = [p for p in near if p[0] > start + room / 3] or near
+    best = min(late, key=lambda p: (p[1:], -p[0]), default=None)
+    return best and best[:2]
 
 
-def _breaks(text: str) -> Iterator[tuple[int, int, int]]:
+def _breaks(text: str) -> Iterator[Place]:
     """Yield places, open brackets there, and 1 for the less welcome break between factors."""
     depth = 0
     for i, c in enumerate(text):

@@ -3,8 +3,9 @@
 from collections.abc import Callable
 
 from .actuators import delay, lag, rate_limit, saturation
-from .closed import broken, close, closed, driven
+from .closed import close, closed
 from .controller import Controller
+from .cut import broken, driven
 from .design import kalman, lqr, observer, place
 from .feedback import estimated_feedback, observing, state_feedback
 from .sliding import sliding

@@ -9,8 +9,9 @@ from ..core.declare import Input, Output
 from ..core.made import made
 from ..core.model import Model
 from .actuators import Delay
-from .closed import chain_of, closed
+from .closed import closed
 from .controller import Controller
+from .loop import chain_of
 
 
 @dataclass(frozen=True)

@@ -19,7 +19,6 @@ from ..core.functions import maximum, minimum
 from ..core.made import made
 from ..core.model import Model
 from .actuators import Actuator, input_of, model_of
-from .closed import ClosedLoop, chain_of
 from .controller import Controller
 from .copies import (
     DESIRED,
@@ -40,6 +39,7 @@ from .copies import (
 )
 from .feedback import HAT, Observer
 from .jumping import Jumping
+from .loop import ClosedLoop, chain_of
 
 Array = npt.NDArray[Any]
 

@@ -10,6 +10,13 @@ if TYPE_CHECKING:
     from sympy.polys.rings import PolyElement
 
 
+Collected = tuple[int, list[tuple[int, int, list[tuple["PolyElement", int]]]]]
+"""A generator's place, and for each of its powers content and factors of what it is multiplied with."""
+
+LONG = 60
+"""Terms above which a polynomial's readable form is sought in fewer ways."""
+
+
 def factors(poly: PolyElement) -> tuple[int, list[tuple[PolyElement, int]]]:
     """Return the integer content and the irreducible factors with their multiplicities.
 
@@ -86,22 +93,42 @@ def readable(poly: PolyElement) -> Any:
     ``C*I_c + C*b**2*m - k*...`` becomes ``C*(I_c + b**2*m) - k*(...)``: the coefficient of every power is factored,
     and the parameter is chosen that leaves the fewest symbols to write.
     """
-    plain, best, cost = poly.as_expr(), None, _length(poly)
-    for i in range(poly.ring.ngens) if len(poly) > 2 else ():
+    found = None if len(poly) <= 2 else _collected(poly) if len(poly) <= LONG else _collected_long(poly)
+    if found is None:
+        return poly.as_expr()
+    import sympy as sp
+
+    generator = poly.ring.symbols[found[0]]
+    terms = []
+    for power, content, parts in found[1]:
+        product = sp.Mul(*(readable(f) ** m for f, m in parts))
+        terms.append(content * generator**power * product)
+    return sp.Add(*terms)
+
+
+def _collected(poly: PolyElement) -> Collected | None:
+    """Return the parameter that leaves the fewest symbols, and the powers' coefficients; ``None`` if none helps."""
+    best, cost = None, _length(poly)
+    for i in range(poly.ring.ngens):
         parts = [(power, *factors(part)) for power, part in sorted(_by_power(poly, i).items())]
         length = sum(power > 0 for power, _, _ in parts) + sum(m * _length(f) for _, _, fs in parts for f, m in fs)
         if len(parts) > 1 and length < cost:
             best, cost = (i, parts), length
-    if best is None:
-        return plain
-    import sympy as sp
+    return best
 
-    generator = poly.ring.symbols[best[0]]
-    terms = []
-    for power, content, found in best[1]:
-        product = sp.Mul(*(readable(f) ** m for f, m in found))
-        terms.append(content * generator**power * product)
-    return sp.Add(*terms)
+
+def _collected_long(poly: PolyElement) -> Collected | None:
+    """Return the same with the parameter chosen before coefficients are factored: all that, for each, takes seconds."""
+    split = {i: _by_power(poly, i) for i in range(poly.ring.ngens)}
+    lengths = {
+        i: sum((power > 0) + _length_apart(part) for power, part in parts.items())
+        for i, parts in split.items()
+        if len(parts) > 1
+    }
+    best = min(lengths, key=lambda i: lengths[i], default=None)
+    if best is None or lengths[best] >= _length(poly):
+        return None
+    return best, [(power, *factors(part)) for power, part in sorted(split[best].items())]
 
 
 def factored(poly: PolyElement) -> Any:
@@ -116,6 +143,12 @@ def factored(poly: PolyElement) -> Any:
 
 def _length(poly: PolyElement) -> int:
     return sum(sum(monom) for monom in poly.itermonoms()) + len(poly) - 1
+
+
+def _length_apart(poly: PolyElement) -> int:
+    """Length with what all terms share written once."""
+    shared = sum(map(min, zip(*poly.itermonoms(), strict=True)))
+    return _length(poly) - (len(poly) - 1) * shared
 
 
 def _by_power(poly: PolyElement, index: int) -> dict[int, PolyElement]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
 
@@ -121,16 +121,45 @@ def trace(model: type[Model], direction: int | None = 1, method: str = "") -> Tr
     return traced
 
 
-def stated(traced: Traced) -> tuple[Expr, ...]:
-    """Return a model's residuals as they are written: with the forces of its parts as functions, not spelt out."""
-    model = traced.model
+@dataclass(frozen=True)
+class Written:
+    """Equations as people write them: the forces of parts as functions, a controller's law by the side.
+
+    ``residuals`` use the symbols of ``law``, which are what drives the vehicle, and of ``outputs``, by their names.
+    """
+
+    residuals: tuple[Expr, ...]
+    outputs: Mapping[sp.Symbol, Expr]
+    law: Mapping[sp.Symbol, Expr] = field(default_factory=dict)
+
+    @property
+    def definitions(self) -> dict[sp.Symbol, Expr]:
+        """What the residuals' further symbols stand for: the law, then the outputs that it or they use."""
+        found = dict(self.law)
+        waiting = [*self.residuals, *found.values()]
+        while waiting:
+            for symbol in sorted(waiting.pop(0).free_symbols & self.outputs.keys() - found.keys(), key=str):
+                found[symbol] = self.outputs[symbol]
+                waiting.append(found[symbol])
+        return found
+
+
+def written(traced: Traced) -> Written:
+    """Return a model's equations as they are written: with the forces of its parts as functions, not spelt out."""
+    model, names = traced.model, traced.model.declaration.outputs
+    symbols = [sp.Symbol(name, real=True) for name in names]
+    if hasattr(model, "written_loop"):
+        found: Written = symbolic_instance(model, traced.parameters).written_loop(traced)
+        return found
     laws = {name: slot.law.unwritten(name) for name, slot in model.declaration.slots.items()}
     if not laws:
-        return traced.residuals
+        return Written(traced.residuals, dict(zip(symbols, traced.outputs, strict=True)))
     instance = symbolic_instance(model.fitted(**laws), traced.parameters)
     q = list(traced.q[: len(traced.q) - traced.multipliers])
-    residuals, _ = _residuals(type(instance), instance, groups_of(model, q, traced.u), q, "")
-    return tuple(_rational(r) for r in residuals)
+    groups = groups_of(model, q, traced.u)
+    residuals, _ = _residuals(type(instance), instance, groups, q, "")
+    outputs = call(instance.outputs, groups) if hasattr(instance, "outputs") else {}
+    return Written(tuple(map(_rational, residuals)), {s: _rational(outputs[s.name]) for s in symbols})
 
 
 def groups_of(model: type[Model], q: list[tuple[sp.Symbol, ...]], u: tuple[sp.Symbol, ...]) -> dict[str, Names]:

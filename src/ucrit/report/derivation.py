@@ -59,6 +59,10 @@ def _printed(parts: Sequence[Formula], left: Sequence[str] | None = None) -> tup
 
 def _motion(described: ModelDescription) -> Step:
     shown, note = _printed(described.equations)
+    if described.definitions:
+        left = [formulas.symbol_mathml(name) for name in described.definitions]
+        defined, more = _printed(tuple(described.definitions.values()), left)
+        shown, note = (*shown, *defined), " ".join(text for text in (note, more) if text)
     told = [note, described.notes]
     return Step(
         Markup("The equations of motion, with a dot for each time derivative. Unknowns are {}.").format(

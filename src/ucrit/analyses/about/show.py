@@ -77,6 +77,9 @@ class ModelDescription:
         Where the equations that it is checked against are printed.
     equations
         Left-hand sides of the equations of motion; each is zero. ``theta'`` is the rate of ``theta``.
+    definitions
+        What further names in the equations stand for: inputs that a controller drives, by its law, and the outputs
+        that it uses.
     unknowns
         Names of the columns of ``P``: the variables, then the constraint forces.
     P, Q
@@ -98,6 +101,7 @@ class ModelDescription:
     inputs: tuple[Input, ...]
     outputs: tuple[Output, ...]
     equations: tuple[Formula, ...]
+    definitions: dict[str, Formula]
     unknowns: tuple[str, ...]
     P: tuple[Matrix, ...]
     Q: Matrix
@@ -140,6 +144,7 @@ class ModelDescription:
             "inputs": [_quantity(q) for q in self.inputs],
             "outputs": [_quantity(q) for q in self.outputs],
             "equations": [_plain(f) for f in self.equations],
+            "definitions": {name: _plain(f) for name, f in self.definitions.items()},
             "unknowns": list(self.unknowns),
             "P": [[[f.text for f in row] for row in M] for M in self.P],
             "Q": [[f.text for f in row] for row in self.Q],
@@ -153,14 +158,15 @@ class ModelDescription:
     def __str__(self) -> str:
         lines = [f"{self.model}: {self.title}", ""]
         lines += [f"{p.name:<10} {p.unit:<10} {p.meaning}, {p.allowed}" for p in self.parameters]
-        return "\n".join([*lines, "", *(f"{f} = 0" for f in self.equations)])
+        defined = [f"{name} = {f}" for name, f in self.definitions.items()]
+        return "\n".join([*lines, "", *(f"{f} = 0" for f in self.equations), *defined])
 
     def _repr_html_(self) -> str:
         rows = [(p.name, "" if p.unit == "1" else p.unit, p.meaning, p.allowed) for p in self.parameters]
         table = html.table(rows, ("parameter", "unit", "meaning", "allowed"), self.title)
-        equations = "".join(
-            f'<p><math display="block"><mrow>{f.mathml}<mo>=</mo><mn>0</mn></mrow></math></p>' for f in self.equations
-        )
+        lines = [f"{f.mathml}<mo>=</mo><mn>0</mn>" for f in self.equations]
+        lines += [f"<mi>{html.text(name)}</mi><mo>=</mo>{f.mathml}" for name, f in self.definitions.items()]
+        equations = "".join(f'<p><math display="block"><mrow>{line}</mrow></math></p>' for line in lines)
         head = f"<p>{html.text(f'Characteristic polynomial of degree {len(self.polynomial) - 1}')}</p>"
         return table + equations + head + self.polynomial._repr_html_()
 
@@ -199,6 +205,7 @@ def show(subject: type[Model] | Model | str | os.PathLike[str]) -> ModelDescript
         inputs=tuple(declared.inputs.values()),
         outputs=tuple(declared.outputs.values()),
         equations=_formulas(facts["equations"]),
+        definitions={name: Formula(**fact) for name, fact in facts["definitions"].items()},
         unknowns=tuple(facts["unknowns"]),
         P=tuple(_matrix(M) for M in facts["P"]),
         Q=_matrix(facts["Q"]),

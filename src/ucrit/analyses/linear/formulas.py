@@ -13,7 +13,8 @@ from ...core.derive import symbolic
 from ...core.factor import factored
 from ...core.linear import LinearSystem
 from ...core.model import Model
-from ...core.trace import Traced, stated
+from ...core.trace import Traced, written
+from .pieces import named_pieces
 
 LONGER = 2
 """An equation this many times longer multiplied out is left as stated: collecting may take minutes, and never won."""
@@ -23,14 +24,24 @@ DOTS = {1: ("\\dot", "&#729;"), 2: ("\\ddot", "&#168;")}
 def derive(model: type[Model], sense: int) -> dict[str, Any]:
     """Return equations of motion, linear matrices and characteristic polynomial in text, LaTeX and MathML."""
     system = symbolic(model, sense)
-    functions = dict(system.polynomial.functions)
+    functions, traced, told = dict(system.polynomial.functions), system.traced, written(system.traced)
+    defined = told.definitions
+    found, pieces = named_pieces([*told.residuals, *defined.values()], _names(traced))
+    equations, further = found[: len(told.residuals)], found[len(told.residuals) :]
+    where = {**dict(zip(defined, further, strict=True)), **pieces}
     return {
-        "equations": [_motion(_tidied(r, system.traced), system.traced) for r in stated(system.traced)],
+        "equations": [_motion(_tidied(e, traced), traced) for e in equations],
+        "definitions": {symbol.name: _motion(e, traced) for symbol, e in where.items()},
         "unknowns": [chain[0].name for chain in system.traced.q],
         "P": [_matrix(M) for M in _matrices(system)],
         "Q": _matrix(system.Q),
         "polynomial": [_plain(factored(a).xreplace(functions)) for a in system.polynomial.coefficients],
     }
+
+
+def _names(traced: Traced) -> list[str]:
+    declared = traced.model.declaration
+    return [*declared.parameters, *declared.variables, *declared.inputs, *declared.outputs]
 
 
 def _matrices(system: LinearSystem) -> list[Any]:
@@ -41,7 +52,11 @@ def _matrices(system: LinearSystem) -> list[Any]:
 
 
 def _matrix(M: Any) -> list[list[dict[str, str]]]:
-    return [[_plain(_shortest([sp.factor(e), sp.together(e), e])) for e in M.row(i)] for i in range(M.rows)]
+    return [[_plain(_entry(e)) for e in M.row(i)] for i in range(M.rows)]
+
+
+def _entry(e: Any) -> Any:
+    return e if e.is_Atom else _shortest([sp.factor(e), sp.together(e), e])
 
 
 def _shortest(candidates: Iterable[Any]) -> Any:
