@@ -48,7 +48,8 @@ def test_repeated_pieces_of_long_equations_have_names() -> None:
     traced = symbolic(find_model("car-four-wheels")).traced
     told = written(traced).residuals
     found, pieces = named_pieces(told, ["p_1", "w"])
-    assert pieces and all(s.name.startswith("z_") for s in pieces)
+    assert pieces
+    assert all(s.name.startswith("z_") for s in pieces)
     values = _numbers(traced)
     for short, residual in zip(found, told, strict=True):
         assert abs(_value(_put_in(short, pieces), values) - _value(residual, values)) < 1e-12

@@ -57,6 +57,11 @@ class CharacteristicPolynomial:
         return prod((part[_zeros(part)] for part in self.parts), start=self.ring.one)
 
     @property
+    def static_expression(self) -> Any:
+        """The same as a SymPy expression, a product that is not multiplied out."""
+        return sp.Mul(*(part[_zeros(part)].as_expr().xreplace(dict(self.functions)) for part in self.parts))
+
+    @property
     def leading(self) -> PolyElement:
         """The highest coefficient."""
         return prod((part[-1] for part in self.parts), start=self.ring.one)

@@ -120,12 +120,14 @@ class Compiled:
 
     @cached_property
     def _matrix_slopes(self) -> Callable[[Arguments], tuple[Any, ...]]:
-        return build(self._slopes["slopes"], "slopes")
+        return build(self._slopes["source"], "slopes")
 
     @cached_property
     def static_slopes(self) -> Callable[[Arguments], tuple[Any, ...]]:
         """Function of the parameters giving da/dp for each, a the first coefficient not always zero."""
-        return build(self._slopes["static"], "static")
+        piece = f"static{self.direction:+d}"
+        found = cached(self.model, piece, lambda: derive_facts("static_slope", self.model, self.direction))
+        return build(found["slopes"], "static")
 
     def blocks(self, arguments: Arguments) -> list[Array]:
         """Return L, R, Q, Cw, Cz, D of ``L z = R w + Q u``, ``y = Cw w + Cz z + D u`` as stacked arrays."""
@@ -174,14 +176,15 @@ class Compiled:
         with np.errstate(all="ignore"):
             entries = self._matrix_slopes(arguments)
         pick, _ = self._structure
-        z = np.linalg.solve(L, R)
-        slopes, position = {}, 0
-        for name in self.model.declaration.parameters:
-            shapes = self._facts["shapes"][:2]
-            count = sum(r * c for r, c in shapes)
-            dL, dR = _stack(entries[position : position + count], shapes, _shape(arguments))
+        z, shapes = np.linalg.solve(L, R), self._facts["shapes"][:2]
+        count = sum(rows * columns for rows, columns in shapes)
+        changes: list[dict[int, Any]] = [{} for _ in self.model.declaration.parameters]
+        for (i, j), value in zip(self._slopes["places"], entries, strict=True):
+            changes[j][i] = value
+        slopes = {}
+        for name, change in zip(self.model.declaration.parameters, changes, strict=True):
+            dL, dR = _stack([change.get(i, 0.0) for i in range(count)], shapes, _shape(arguments))
             slopes[name] = pick @ np.linalg.solve(L, dR - dL @ z)
-            position += count
         return slopes
 
 

@@ -61,15 +61,18 @@ def size_facts(model: type[Model], direction: int) -> dict[str, Any]:
 
 
 def slope_facts(model: type[Model], direction: int) -> dict[str, Any]:
-    """Derive how the explicit form changes with every parameter."""
+    """Derive how the explicit form changes with every parameter; only slopes other than zero are kept."""
     system = symbolic(model, direction)
     parameters = list(system.traced.parameters.values())
-    slopes = [entry.diff(p) for p in parameters for block in (system.explicit.L, system.explicit.R) for entry in block]
-    static = system.polynomial.static.as_expr().xreplace(dict(system.polynomial.functions))
-    return {
-        "slopes": generate("slopes", [parameters], slopes),
-        "static": generate("static", [parameters], [static.diff(p) for p in parameters]),
-    }
+    entries = [e for block in (system.explicit.L, system.explicit.R) for e in block]
+    return _sparse("slopes", [parameters], entries, parameters)
+
+
+def static_slope_facts(model: type[Model], direction: int) -> dict[str, Any]:
+    """Derive how the lowest coefficient that is not zero changes with every parameter."""
+    system = symbolic(model, direction)
+    parameters, static = list(system.traced.parameters.values()), system.polynomial.static_expression
+    return {"slopes": generate("static", [parameters], [static.diff(p) for p in parameters])}
 
 
 def motion_facts(model: type[Model]) -> dict[str, Any]:
