@@ -50,6 +50,7 @@ def test_the_dictionary_is_plain_data_in_the_documented_schema(name):
         "modes",
         "critical",
         "criteria",
+        "criteria_in",
         "remedies",
     }
     for mode in data["modes"]:
@@ -118,7 +119,7 @@ def test_rigid_positions_are_harmless_and_said_so():
     car = load("oversteering-car-on-the-road").with_(U=20)
     found = verdict(car)
     assert (found.rigid_positions, found.marginal, found.stable) == (2, 0, True)
-    assert "2 zero roots are positions that no force restores, which is harmless" in str(found)
+    assert "2 zero roots of positions or speeds that nothing restores, which is harmless" in str(found)
     assert [mode.eigenvalue for mode in modes(car)].count(0) == 2
 
 

@@ -8,7 +8,8 @@ import sympy as sp
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from ucrit import UcritError, criteria, find_model, load, verdict
+from ucrit import UcritError, analyze, criteria, critical, find_model, load, verdict
+from ucrit.analyses.stability.few import READABLE, ranked
 from ucrit.catalogue import model_names, vehicle_names
 from ucrit.core.compiled import state_space
 from ucrit.core.possible import holds
@@ -192,3 +193,31 @@ def test_doubles_of_a_criterion_read_back_and_a_one_is_not_written():
     for condition in found.conditions:
         number = float(re.fullmatch(r"G \+ (0\.\d+)", condition.expression)[1])
         assert repr(number) in condition.expression
+
+
+def test_few_parameters_are_those_that_matter_and_their_criterion_is_right():
+    vehicle = load("car-with-stability-control")
+    with pytest.raises(UcritError, match='free="few"'):
+        criteria(type(vehicle))
+    found = criteria(vehicle, free="few")
+    assert found.free
+    assert 0 < sum(len(c.expression) for c in found) <= READABLE
+    assert analyze(vehicle, free="few").criteria == found
+    assert analyze(vehicle).criteria is None
+    (name,) = found.free
+    edges = list(critical(vehicle, name, 0.3 * vehicle.values[name], 3 * vehicle.values[name]))
+    assert edges
+    for value in [edge.value * factor for edge in edges for factor in (0.999, 1.001)]:
+        changed = vehicle.with_(**{name: value})
+        assert verdict(changed).stable is not bool(found.failing(changed))
+
+
+def test_few_are_all_parameters_where_these_can_be_read():
+    vehicle = load("caravan")
+    assert analyze(vehicle, free="few").criteria == criteria(vehicle)
+    assert criteria(vehicle).free is None
+    assert analyze(vehicle, free="U, a").criteria.free == ("U", "a")
+    assert analyze(vehicle, free="U, a").to_dict()["criteria_in"] == ["U", "a"]
+    assert {"a", "I_c", "m"} <= set(ranked(vehicle)[:4])
+    with pytest.raises(UcritError, match="a vehicle's; give one"):
+        criteria(type(vehicle), free="few")

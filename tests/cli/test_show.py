@@ -126,3 +126,13 @@ def test_shows_how_well_parameters_are_known(run) -> None:
     assert vehicle["correlations"] == [["m", "I_c", 0.7]]
     assert "from 4000 to 6000" in load("caravan")._repr_html_()
     assert "tolerance" not in load("bmw-320i")._repr_html_()
+
+
+def test_criteria_in_few_parameters_say_so(run) -> None:
+    printed = " ".join(run("analyze", "car-with-stability-control").stdout.split())
+    assert "too long to be read; in b, with the vehicle's numbers for the rest (--free takes others)" in printed
+    assert "b - 0.705" in printed
+    assert "in U, with the vehicle's numbers for the rest" in run("show", "caravan", "--free", "U").stdout
+    assert "did you mean 'a'" in run("analyze", "caravan", "--free", "aa").stderr
+    assert "need a vehicle" in run("show", "trailer", "--free", "U").stderr
+    assert "a controller alone has none" in run("show", "yaw-rate-feedback", "--free", "U").stderr

@@ -67,3 +67,8 @@ def test_numeric_work_does_not_import_sympy_the_second_time(tmp_path):
     ]
     assert "sympy" in runs[0]
     assert runs[1].strip() == "[]"
+
+
+def test_fingerprint_follows_all_code_that_derives():
+    names = {name for name, _, _ in cache_module._package_stamps()}
+    assert {"core/derive.py", "analyses/stability/conditions.py", "analyses/linear/formulas.py"} <= names

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from ..analyses.stability.advice import advice
+from ..analyses.stability.criteria import in_words
 from ..analyses.stability.wording import speed_text
 from .terminal import Page, vehicle_head
 from .wrap import number, shorten
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
 
     from ..analyses.linear.modes import Mode
     from ..analyses.stability.analyze import Analysis
+    from ..analyses.stability.criteria import Criteria
     from ..analyses.stability.critical import Critical
     from ..analyses.stability.remedies import Remedy
 
@@ -126,8 +128,12 @@ def _criteria(page: Page, found: Analysis) -> None:
         page.heading("Criteria")
         page.paragraph(found.why_no_criteria, indent=2)
         return
-    if found.criteria.settled is not None:
+    if found.criteria.free is not None:
         page.heading("Criteria")
+        page.paragraph(in_few(found.criteria, found.why_no_criteria), indent=2)
+    if found.criteria.settled is not None:
+        if found.criteria.free is None:
+            page.heading("Criteria")
         page.paragraph(str(found.criteria), indent=2)
         return
     holding = [c for c in found.criteria if c not in found.failing]
@@ -141,6 +147,12 @@ def _criteria(page: Page, found: Analysis) -> None:
         names = max(len(c.name) for c in holding)
         for c in holding:
             page.line("  " + shorten(f"{c.name:<{names}}  {c}", page.width - 2))
+
+
+def in_few(found: Criteria, why: str) -> str:
+    """Return what conditions are about in which the vehicle's numbers stand for most parameters."""
+    symbols = in_words(found.free or ())
+    return f"{why + '; ' if why else ''}in {symbols}, with the vehicle's numbers for the rest (--free takes others):"
 
 
 def _failure(kind: str) -> str:

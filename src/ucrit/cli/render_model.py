@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..core.tolerances import Tolerances
+from .render import in_few
 from .terminal import Page, vehicle_head
 from .wrap import number, shorten
 
@@ -186,6 +187,8 @@ def _polynomial(page: Page, found: ModelDescription) -> None:
 
 def _criteria(page: Page, found: ModelDescription) -> None:
     page.heading("Stable if and only if")
+    if found.criteria is not None and found.criteria.free is not None:
+        page.paragraph(in_few(found.criteria, found.why_no_criteria), indent=2)
     if found.criteria is None:
         page.paragraph(found.why_no_criteria, indent=2)
     elif found.criteria.settled is not None:

@@ -98,8 +98,18 @@ _fingerprint: Any = cache(_hash_of)
 
 @cache
 def _package_stamps() -> list[tuple[str, int, int]]:
-    stats = [(e.name, e.stat()) for part in DERIVING for e in os.scandir(PACKAGE / part) if e.name.endswith(".py")]
+    files = (e for part in DERIVING for e in _files(os.fspath(PACKAGE / part)))
+    stats = [(os.path.relpath(e.path, PACKAGE), e.stat()) for e in files if e.name.endswith(".py")]
     return sorted((name, stat.st_size, stat.st_mtime_ns) for name, stat in stats)
+
+
+def _files(folder: str) -> Iterator[os.DirEntry[str]]:
+    """Return the files of a folder and of those in it."""
+    for entry in os.scandir(folder):
+        if entry.is_dir():
+            yield from _files(entry.path)
+        else:
+            yield entry
 
 
 def _class_pieces(cls: type, seen: set[int]) -> Iterator[str]:

@@ -147,7 +147,7 @@ def _length(poly: PolyElement) -> int:
 
 def _length_apart(poly: PolyElement) -> int:
     """Length with what all terms share written once."""
-    shared = sum(map(min, zip(*poly.itermonoms(), strict=True)))
+    shared: int = sum(map(min, zip(*poly.itermonoms(), strict=True)))
     return _length(poly) - (len(poly) - 1) * shared
 
 

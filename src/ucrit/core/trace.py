@@ -149,8 +149,8 @@ def written(traced: Traced) -> Written:
     model, names = traced.model, traced.model.declaration.outputs
     symbols = [sp.Symbol(name, real=True) for name in names]
     if hasattr(model, "written_loop"):
-        found: Written = symbolic_instance(model, traced.parameters).written_loop(traced)
-        return found
+        loop: Any = symbolic_instance(model, traced.parameters)
+        return loop.written_loop(traced)  # type: ignore[no-any-return]
     laws = {name: slot.law.unwritten(name) for name, slot in model.declaration.slots.items()}
     if not laws:
         return Written(traced.residuals, dict(zip(symbols, traced.outputs, strict=True)))

@@ -131,7 +131,7 @@ def _polynomial(described: ModelDescription) -> Step:
 
 def _conditions(described: ModelDescription) -> Step:
     found = described.criteria
-    if found is None:
+    if found is None or found.free is not None:
         return Step("The conditions on these coefficients in symbols are too long to be of use.", "Conditions", ())
     text = (
         "All its roots lie in the left half plane if and only if the coefficients and every second Hurwitz "
@@ -139,7 +139,7 @@ def _conditions(described: ModelDescription) -> Step:
         "are dropped"
     )
     if found.zeros:
-        text += f"; {_count(found.zeros)} zero whatever the parameters, a free position, and divided out first"
+        text += f"; {_count(found.zeros)} zero whatever the parameters, a free position or speed, and divided out first"
     if found.settled is not None:
         return Step(f"{text}. Nothing is left that depends on the parameters.", "Conditions", ())
     return Step(f"{text}. What is left stands above under Criteria.", "Conditions", ())

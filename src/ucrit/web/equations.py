@@ -25,9 +25,11 @@ def equations(vehicle: Model, body: Mapping[str, Any]) -> dict[str, Any]:
     environment = Environment(
         loader=FileSystemLoader(HERE), autoescape=True, undefined=StrictUndefined, trim_blocks=True, lstrip_blocks=True
     )
-    found, described, say = analyze(vehicle, advise=False), show(vehicle), say_speed(body)
+    found, described, say = analyze(vehicle, advise=False, free="few"), show(vehicle), say_speed(body)
     content = {
-        "why": found.why_no_criteria,
+        "why": "" if found.criteria else found.why_no_criteria,
+        "scope": found.criteria.scope if found.criteria else "",
+        "in_few": found.criteria is not None and found.criteria.free is not None,
         "settled": found.criteria.settled if found.criteria else None,
         "neutral": bool(found.criteria and found.criteria.kind == "neutral"),
         "criteria": tables.criteria(found),

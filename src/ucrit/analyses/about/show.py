@@ -17,7 +17,8 @@ from ...core.compiled import direction
 from ...core.declare import Input, Output, Parameter, Variable
 from ...core.errors import UcritError, near_match
 from ...core.model import Model
-from ..stability.criteria import Criteria, criteria
+from ..stability.analyze import criteria_or_why
+from ..stability.criteria import Criteria
 
 
 @dataclass(frozen=True)
@@ -87,7 +88,9 @@ class ModelDescription:
     polynomial
         Coefficients a_0, a_1, ... of the characteristic polynomial, of rising powers of s.
     criteria
-        Conditions for stability; ``None`` where they would be too long, ``why_no_criteria`` then says so.
+        Conditions for stability; ``None`` where they would be too long.
+    why_no_criteria
+        Why these are not the conditions in all parameters; empty where they are.
     vehicle
         The vehicle that was asked about, ``None`` when it was a model.
     """
@@ -171,13 +174,18 @@ class ModelDescription:
         return table + equations + head + self.polynomial._repr_html_()
 
 
-def show(subject: type[Model] | Model | str | os.PathLike[str]) -> ModelDescription:
+def show(
+    subject: type[Model] | Model | str | os.PathLike[str], *, free: Sequence[str] | str | None = None
+) -> ModelDescription:
     """Describe a model: quantities, equations of motion, matrices, characteristic polynomial, criteria.
 
     Parameters
     ----------
     subject
         A model class, a vehicle, or the name of one; also a vehicle file or a Python file with a model.
+    free
+        Parameters that the criteria of a vehicle keep as symbols, its numbers standing for the rest; all by default.
+        ``"few"`` takes all too, but where that is too long the few that matter most, see `criteria`.
 
     Raises
     ------
@@ -193,7 +201,9 @@ def show(subject: type[Model] | Model | str | os.PathLike[str]) -> ModelDescript
     model, vehicle = resolve(subject)
     sense = 1 if vehicle is None else direction(vehicle)
     facts = cached(model, f"show{sense:+d}", lambda: _derive(model, sense))
-    found, why = _criteria(model, sense)
+    if vehicle is None and free not in (None, "few"):
+        raise UcritError(f"{model.model_id()}: free parameters need a vehicle, whose values the others take")
+    found, why = criteria_or_why(model, vehicle, sense, free)
     declared = model.declaration
     return ModelDescription(
         model=model.model_id(),
@@ -252,13 +262,6 @@ def _formulas(facts: Sequence[Mapping[str, str]]) -> tuple[Formula, ...]:
 
 def _matrix(rows: Sequence[Sequence[Mapping[str, str]]]) -> Matrix:
     return tuple(_formulas(row) for row in rows)
-
-
-def _criteria(model: type[Model], sense: int) -> tuple[Criteria | None, str]:
-    try:
-        return criteria(model, direction=sense), ""
-    except UcritError as error:
-        return None, str(error)
 
 
 def _notes(model: type[Model]) -> str:

@@ -13,10 +13,16 @@ import numpy.typing as npt
 from ...core.compiled import compiled, direction, labels, state_space
 from ...core.errors import UcritError
 from ...core.model import Model
+from ...core.units import dimension
 from ...numerics.assignment import assign
 from ..results.convert import Series, Table, Tabular, complex_series, unit_of
 
 Array = npt.NDArray[Any]
+
+STAYS = {
+    dimension(unit): word for unit, word in (("m", "position"), ("1", "position"), ("m/s", "velocity"), ("1/s", "rate"))
+}
+"""What a state is called that a zero eigenvalue leaves where it is."""
 
 
 @dataclass(frozen=True)
@@ -178,8 +184,13 @@ class Modes(Tabular):
     def _going(self, k: int) -> str:
         value = complex(self.eigenvalues[k])
         if value == 0:
-            return "position"
+            return self._staying(self.labels[int(np.argmax(self.participation[:, k]))])
         return "oscillation" if value.imag else "decay" if value.real < 0 else "divergence"
+
+    def _staying(self, label: str) -> str:
+        """Return what it is that nothing restores, by the unit of the state that takes part most."""
+        variable = type(self.vehicle).declaration.variables.get(label.rstrip("'"))
+        return STAYS.get(dimension(variable.state_unit(label.count("'"))), "value") if variable else "value"
 
     @property
     def growth(self) -> Array:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -15,6 +15,7 @@ from ...core.model import Model
 from ..linear.modes import Mode, modes
 from .criteria import Criteria, Criterion, criteria
 from .critical import Critical, CriticalValues, critical
+from .few import few_criteria
 from .remedies import Remedy, remedies
 from .verdict import Verdict, verdict
 from .wording import describe
@@ -45,8 +46,9 @@ class Analysis:
     critical
         Every critical speed, also beyond the asked one.
     criteria
-        The conditions for stability in symbols; ``None`` where they would be too long to read, ``why_no_criteria``
-        then says so.
+        The conditions for stability in symbols; ``None`` where they would be too long to read.
+    why_no_criteria
+        Why these are not the conditions in all parameters; empty where they are.
     failing
         Those of them that fail at the asked speed.
     remedies
@@ -96,6 +98,7 @@ class Analysis:
             "modes": [_mode(mode) for mode in self.modes],
             "critical": [_critical(c) for c in self.critical or ()],
             "criteria": [_criterion(c, c in self.failing) for c in self.criteria or ()],
+            "criteria_in": list(self.criteria.free) if self.criteria and self.criteria.free is not None else None,
             "remedies": [_remedy(r) for r in self.remedies],
             **checked,
         }
@@ -117,6 +120,7 @@ def analyze(
     *,
     audit: bool = False,
     advise: bool = True,
+    free: Sequence[str] | str | None = None,
 ) -> Analysis:
     """Judge a vehicle up to a speed: verdict, modes, critical speeds, criteria and remedies.
 
@@ -132,6 +136,9 @@ def analyze(
         Whether the verdict at the asked speed is checked by the non-linear equations too, see `audit`.
     advise
         Whether remedies are sought, which takes longer than all the rest; without them there are none in the result.
+    free
+        Parameters that the criteria keep as symbols, the vehicle's numbers standing for the rest; all by default.
+        ``"few"`` takes all too, but where that is too long the few that matter most, see `criteria`.
 
     Raises
     ------
@@ -150,7 +157,7 @@ def analyze(
     name = type(subject).declaration.speed
     found_verdict = verdict(subject)
     found_critical = None if name is None else critical(subject)
-    found_criteria, why = _criteria(subject)
+    found_criteria, why = criteria_or_why(type(subject), subject, direction(subject), free)
     speed = None if name is None else float(subject.values[name])
     stable = _stable(found_verdict, found_critical, speed)
     return Analysis(
@@ -194,11 +201,18 @@ def _stable(found: Verdict, speeds: CriticalValues | None, speed: float | None) 
     return not found.growing and start and not any(abs(c.value) < abs(speed) for c in speeds)
 
 
-def _criteria(vehicle: Model) -> tuple[Criteria | None, str]:
+def criteria_or_why(
+    model: type[Model], vehicle: Model | None, sense: int, free: Sequence[str] | str | None
+) -> tuple[Criteria | None, str]:
+    """Return the criteria of a model or of one vehicle, and why they are none or not those in all parameters."""
+    if vehicle is not None and free not in (None, "few"):
+        return criteria(vehicle, direction=sense, free=free), ""
     try:
-        return criteria(type(vehicle), direction=direction(vehicle)), ""
+        return criteria(model, direction=sense), ""
     except UcritError as error:
-        return None, str(error)
+        too_long = str(error)
+    found = few_criteria(vehicle) if vehicle is not None and free == "few" else None
+    return found, too_long if found is None else too_long.removeprefix(f"{model.model_id()}: ").partition(";")[0]
 
 
 def _number(value: float) -> float | None:

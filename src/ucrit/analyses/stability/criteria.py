@@ -7,6 +7,7 @@ bounds make positive are dropped. What is left is the criterion.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -109,6 +110,8 @@ class Criteria:
         Degree of the characteristic polynomial without these.
     conflict
         Where it is ``False`` because two conditions cannot both hold: their left-hand sides.
+    free
+        The parameters that are symbols, ``None`` for all; a vehicle's numbers stand for the others.
     """
 
     model: str
@@ -118,14 +121,21 @@ class Criteria:
     zeros: int
     order: int
     conflict: tuple[str, ...] = ()
+    free: tuple[str, ...] | None = None
+
+    @property
+    def scope(self) -> str:
+        """What the conditions are about, in words: all parameters that are allowed, or the values of some."""
+        return "allowed parameters" if self.free is None else f"allowed values of {in_words(self.free)}"
 
     def __str__(self) -> str:
         word = "stable" if self.kind == "asymptotic" else "neutrally stable"
         if self.settled is not None:
             needs = " and ".join(f"{expression} > 0" for expression in self.conflict)
             why = f": it needs {needs}, which cannot both hold" if needs else ""
-            return f"{self.model}: {word if self.settled else 'unstable'} for all allowed parameters{why}"
-        lines = [f"{self.model}: {word} if and only if"]
+            return f"{self.model}: {word if self.settled else 'unstable'} for all {self.scope}{why}"
+        numbers = "" if self.free is None else f" in {in_words(self.free)}, the vehicle's numbers for the rest"
+        lines = [f"{self.model}{numbers}: {word} if and only if"]
         return "\n".join([*lines, *(f"    {condition}" for condition in self.conditions)])
 
     def _repr_html_(self) -> str:
@@ -145,7 +155,7 @@ class Criteria:
 
 
 def criteria(
-    model: type[Model] | Model, *, direction: int | None = None, free: Sequence[str] | None = None
+    model: type[Model] | Model, *, direction: int | None = None, free: Sequence[str] | str | None = None
 ) -> Criteria:
     """Derive the conditions for stability in symbols.
 
@@ -156,8 +166,9 @@ def criteria(
     direction
         +1 forward, -1 backing up; that of the vehicle's speed by default.
     free
-        Parameters to keep as symbols; the vehicle's values are put in for the others. Needed above order 6, where
-        fully symbolic conditions have too many terms to be read.
+        Parameters to keep as symbols; the vehicle's values are put in for the others. ``"few"`` chooses those that
+        the critical speed depends on most, as many as give conditions that can be read. Needed above order 6 or so,
+        where fully symbolic conditions have too many terms.
 
     Returns
     -------
@@ -170,6 +181,10 @@ def criteria(
         If the conditions would be too long to be read, ``free`` names no parameter, or the vehicle has arrays.
     """
     cls = model if isinstance(model, type) else type(model)
+    if free == "few":
+        return _in_few(model, cls)
+    if isinstance(free, str):
+        free = [name for name in re.split(r"[\s,]+", free) if name]
     sense = direction or (1 if isinstance(model, type) else direction_of(model))
     values: dict[str, Any] = {}
     kept: dict[str, Any] = {}
@@ -202,7 +217,31 @@ def criteria(
         for c in facts["conditions"]
     )
     plain = facts["kind"], facts["settled"], facts["zeros"], facts["order"]
-    return Criteria(cls.model_id(), conditions, *plain, tuple(facts.get("conflict", ())))
+    symbols = None if free is None else tuple(kept)
+    return Criteria(cls.model_id(), conditions, *plain, tuple(facts.get("conflict", ())), symbols)
+
+
+def in_words(names: Sequence[str]) -> str:
+    """Return names as a list in words.
+
+    >>> in_words(["U", "a", "b"])
+    'U, a and b'
+    """
+    return " and ".join(text for text in (", ".join(names[:-1]), *names[-1:]) if text)
+
+
+def _in_few(model: type[Model] | Model, cls: type[Model]) -> Criteria:
+    from .few import few_criteria
+
+    if isinstance(model, type):
+        raise UcritError(f"{cls.model_id()}: the few that matter most are a vehicle's; give one with its numbers")
+    found = few_criteria(model)
+    if found is None:
+        raise UcritError(
+            f"{cls.model_id()}: no parameter gives conditions that can be read; critical gives the values of one "
+            "parameter at which they fail"
+        )
+    return found
 
 
 def _short_hash(text: str) -> str:

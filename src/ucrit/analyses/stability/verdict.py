@@ -59,8 +59,8 @@ class Verdict:
             text = "asymptotically stable: every disturbance dies out"
         if self.rigid_positions:
             count = self.rigid_positions
-            zeros = "one zero root is a position" if count == 1 else f"{count} zero roots are positions"
-            text += f"; {zeros} that no force restores, which is harmless"
+            zeros = "one zero root" if count == 1 else f"{count} zero roots"
+            text += f"; {zeros} of positions or speeds that nothing restores, which is harmless"
         return text
 
 

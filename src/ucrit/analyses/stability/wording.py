@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING
+
+from .criteria import in_words
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -91,7 +94,11 @@ def _position(analysis: Analysis) -> str:
     if not count:
         return ""
     roots = "a zero root" if count == 1 else f"{count} zero roots"
-    return f" ({roots}: places and directions that nothing restores, harmless)"
+    names = " ".join(mode.name for mode in analysis.modes if mode.eigenvalue == 0)
+    moving = bool(re.search(r"\b(velocity|rate)\b", names))
+    at_rest = ["places", "directions"] if "position" in names or not moving else []
+    what = in_words([*at_rest, *(["speeds"] if moving else [])])
+    return f" ({roots}: {what} that nothing restores, harmless)"
 
 
 def _at_a_point(analysis: Analysis) -> str:

@@ -35,6 +35,13 @@ NOT_STABLE = 3
     help="The two parameters of the report's stability map.",
 )
 @click.option("--audit", is_flag=True, help="Check the verdict by simulating the non-linear equations.")
+@click.option(
+    "--free",
+    metavar="NAMES",
+    default="few",
+    help="Parameters that the criteria keep as symbols, such as U,a; numbers for the rest. If not given, all, or the "
+    "few that matter most where all would be too long.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
 @click.option("--fail-if-unstable", is_flag=True, help="Leave with status 3 if not stable up to the speed.")
 def command(
@@ -44,6 +51,7 @@ def command(
     report: str | None,
     map_parameters: tuple[str, str] | None,
     audit: bool,
+    free: str,
     as_json: bool,
     fail_if_unstable: bool,
 ) -> int:
@@ -57,6 +65,7 @@ def command(
       ucrit analyze caravan --upto "130 km/h"
       ucrit analyze caravan --set a=1.9 --set "m=2 t" --set "C=1.5 kN/deg"
       ucrit analyze caravan --audit
+      ucrit analyze caravan --free U,a
       ucrit analyze mine.toml --report mine.html --map a m
       ucrit analyze mine.toml --upto 30 --json | jq .verdict.sentence
       ucrit analyze mine.toml --fail-if-unstable || echo "do not drive"
@@ -72,7 +81,8 @@ def command(
 
     if map_parameters and report is None:
         raise click.UsageError("--map chooses what the report draws: give --report FILE.html too")
-    found = analyze(load_vehicle(vehicle, assignments(changes, 'a=1.9 or "m=2 t"'), upto), audit=audit)
+    subject = load_vehicle(vehicle, assignments(changes, 'a=1.9 or "m=2 t"'), upto)
+    found = analyze(subject, audit=audit, free=free)
     if report is not None:
         _write(found, report, map_parameters)
     if as_json:

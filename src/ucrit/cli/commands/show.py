@@ -9,8 +9,15 @@ from ..parameters import Name
 
 @click.command("show", short_help="Show the equations of a model, the numbers of a vehicle.")
 @click.argument("subject", metavar="NAME", type=Name("model", "vehicle", "controller", suffix=".toml"))
+@click.option(
+    "--free",
+    metavar="NAMES",
+    default="few",
+    help="Parameters that the criteria keep as symbols, such as U,a; numbers for the rest. If not given, all, or the "
+    "few that matter most where all would be too long.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
-def command(subject: str, as_json: bool) -> None:
+def command(subject: str, free: str, as_json: bool) -> None:
     """Show parameters, variables, equations of motion, linear matrices, criteria and sources.
 
     NAME is one from 'ucrit list', of a model, a vehicle or a controller; or a vehicle file or a Python file with a
@@ -20,6 +27,7 @@ def command(subject: str, as_json: bool) -> None:
     Examples:
       ucrit show car
       ucrit show caravan
+      ucrit show caravan --free U,a
       ucrit show lean-by-front-steering
       ucrit show my_model.py
       ucrit show my_model.py:Caster --json
@@ -30,7 +38,10 @@ def command(subject: str, as_json: bool) -> None:
     from ...analyses.about.show import show
     from ...catalogue import controller_names
 
-    found = describe_controller(subject) if subject.replace("_", "-") in controller_names() else show(subject)
+    law = subject.replace("_", "-") in controller_names()
+    if law and free != "few":
+        raise click.UsageError("--free chooses symbols of a vehicle's criteria; a controller alone has none")
+    found = describe_controller(subject) if law else show(subject, free=free)
     if as_json:
         import json
 
