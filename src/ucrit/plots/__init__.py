@@ -21,6 +21,7 @@ from .motion import plot_simulation
 from .overview import plot_overview
 from .participation import plot_participation
 from .remedies import plot_remedies
+from .response import plot_frequency_response, plot_time_response
 from .root_locus import plot_locus
 from .stability_map import plot_map
 from .tire import plot_tire
@@ -35,6 +36,7 @@ __all__ = [
     "plot_cycles",
     "plot_damping",
     "plot_family",
+    "plot_frequency_response",
     "plot_handling",
     "plot_locus",
     "plot_map",
@@ -45,6 +47,7 @@ __all__ = [
     "plot_participation",
     "plot_remedies",
     "plot_simulation",
+    "plot_time_response",
     "plot_tire",
     "plot_uncertainty",
 ]

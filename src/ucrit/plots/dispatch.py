@@ -17,6 +17,7 @@ from .moment_line import plot_moment_line
 from .motion import plot_simulation
 from .overview import plot_overview
 from .remedies import plot_remedies
+from .response import plot_frequency_response, plot_time_response
 from .stability_map import plot_map
 from .tire import plot_tire
 from .uncertainty import plot_uncertainty
@@ -50,6 +51,8 @@ DRAWN: dict[str, tuple[str, Callable[..., Any]]] = {
     "SteadyFamily": ("steady_family", plot_family),
     "LimitCycles": ("limit_cycles", plot_cycles),
     "Analysis": ("analyze", _analysis),
+    "FrequencyResponse": ("frequency_response", plot_frequency_response),
+    "TimeResponse": ("step_response", plot_time_response),
     "Locus": ("locus", _locus),
     "Margins": ("margins", plot_margins),
     "Modes": ("modes", _modes),

@@ -94,11 +94,7 @@ def _gain(axes: Any, x: Array, result: Margins) -> None:
     axes.axhline(1, color=style.INK, linewidth=0.9)
     axes.set_yscale("log")
     axes.set_ylim(bottom, top)
-    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
-
-    axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5), numticks=7))
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda v, _: f"{v:g}"))
-    axes.yaxis.set_minor_formatter(NullFormatter())
+    style.plain_numbers(axes.yaxis)
     axes.set_ylabel("gain times")
 
 

@@ -66,6 +66,15 @@ def dash(index: int) -> Any:
     return DASHES[(index // len(BRANCHES) + index) % len(DASHES)]
 
 
+def plain_numbers(axis: Any) -> None:
+    """Label a logarithmic axis at 1, 2 and 5 times powers of ten, without powers."""
+    from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+    axis.set_major_locator(LogLocator(subs=(1, 2, 5), numticks=7))
+    axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    axis.set_minor_formatter(NullFormatter())
+
+
 def tidy(axes: Any, grid: bool = True) -> None:
     """Take away the box, set quiet ticks and a quiet grid under the data."""
     axes.set_facecolor("none")

@@ -80,11 +80,11 @@ def driven_inputs(model: type[Model]) -> list[str]:
     """Return the inputs of the vehicle itself that controllers drive; refuse a vehicle without control."""
     found = driven(model)
     if not found:
-        raise UcritError(f"{model.model_id()}: no controller drives an input; name controllers in the vehicle's file")
+        raise UcritError(f"{model.model_id()}: no controller drives an input; name controllers in the vehicle's file, or close the loop in Python")
     return found
 
 
-def margins(vehicle: Model, input: str) -> Margins:
+def margins(vehicle: Model, input: str | None = None) -> Margins:
     """Return gain, phase, delay and disk margins of a vehicle under control.
 
     Parameters
@@ -92,7 +92,7 @@ def margins(vehicle: Model, input: str) -> Margins:
     vehicle
         Under control; its array parameters (speeds, gains) span dimensions.
     input
-        Input of the vehicle, driven by a controller, at which the loop is cut.
+        Input of the vehicle, driven by a controller, at which the loop is cut; need not be named if only one is.
 
     Returns
     -------
@@ -102,7 +102,7 @@ def margins(vehicle: Model, input: str) -> Margins:
     Raises
     ------
     UcritError
-        If no controller drives the input.
+        If no controller drives the input, or several are driven and none is named.
 
     Examples
     --------
@@ -110,6 +110,11 @@ def margins(vehicle: Model, input: str) -> Margins:
     >>> print(margins(load("motorcycle-steered-to-lean"), "delta_f"))
     at delta_f: gain times 0.1777 to no limit, 14.48 degrees, 0.03376 s, disk 0.2511
     """
+    if input is None:
+        names = driven_inputs(type(vehicle))
+        if len(names) > 1:
+            raise UcritError(f"{type(vehicle).model_id()}: say where the loop is cut: {', '.join(names)}")
+        input = names[0]
     cut = broken(type(vehicle), input)
     subject = cut(**{name: vehicle.values[name] for name in cut.declaration.parameters})
     subject.__dict__["_shared"] = vehicle._shared

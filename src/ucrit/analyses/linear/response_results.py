@@ -15,7 +15,7 @@ from ..results.convert import Series, Table, Tabular, complex_series, needed, un
 Array = npt.NDArray[Any]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class _Response(Tabular):
     """What all responses have; dimensions of ``values`` are the vehicle's, then the axis, then outputs."""
 
@@ -23,6 +23,10 @@ class _Response(Tabular):
     input: str
     outputs: tuple[str, ...]
     units: tuple[str, ...]
+
+    def __repr__(self) -> str:
+        from_to = f"{self._axis.values[0]:.4g} to {self._axis.values[-1]:.4g} {self._axis.unit}"
+        return f"{type(self).__name__}({self._title}: {', '.join(self.outputs)}; {from_to})"
 
     @property
     def _axis(self) -> Series:
@@ -47,7 +51,7 @@ class _Response(Tabular):
         return "response"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class FrequencyResponse(_Response):
     """Steady response to sines of one input.
 
@@ -126,7 +130,7 @@ class FrequencyResponse(_Response):
         return f"frequency response to {self.input}"
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class TimeResponse(_Response):
     """Response in time to a step or an impulse of one input, from the basic motion.
 

@@ -172,7 +172,10 @@ def _range(vehicle: Model, name: str, lower: float | None, upper: float | None) 
 
 
 def _finite(end: float, name: str) -> float:
-    value = float(end)
+    try:
+        value = float(end)
+    except (TypeError, ValueError):
+        raise UcritError(f"{name}: a range has two ends, each a number, got {type(end).__name__}") from None
     if not math.isfinite(value):
         raise UcritError(f"{name}: the ends of a range must be finite, got {value:g}")
     return value
