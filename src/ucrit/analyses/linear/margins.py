@@ -80,7 +80,10 @@ def driven_inputs(model: type[Model]) -> list[str]:
     """Return the inputs of the vehicle itself that controllers drive; refuse a vehicle without control."""
     found = driven(model)
     if not found:
-        raise UcritError(f"{model.model_id()}: no controller drives an input; name controllers in the vehicle's file, or close the loop in Python")
+        raise UcritError(
+            f"{model.model_id()}: no controller drives an input; name controllers in the vehicle's file, or close "
+            "the loop in Python"
+        )
     return found
 
 
