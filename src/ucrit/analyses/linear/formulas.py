@@ -80,7 +80,8 @@ def _tidied(residual: Any, traced: Traced) -> Any:
         return residual
     fastest = [s for s in traced.highest if flat.has(s)]
     laws = sorted((f for f in flat.atoms(sp.Function) if not isinstance(f, sp.sin | sp.cos)), key=str)
-    collected = [sp.collect(flat, keys, form) for keys in (fastest, [*fastest, *laws]) for form in (None, sp.factor)]
+    groups = [fastest, [*fastest, *laws]] if laws else [fastest]
+    collected = [sp.collect(flat, keys, form) for keys in groups for form in (None, sp.factor)]
     return _shortest([residual, flat, *collected])
 
 
