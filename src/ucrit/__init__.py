@@ -5,6 +5,7 @@ from __future__ import annotations
 import builtins
 import importlib
 from collections.abc import Iterable
+from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
@@ -199,8 +200,11 @@ def __getattr__(name: str) -> Any:
     place = _PUBLIC[name]
     module, attribute = place if isinstance(place, tuple) else (place, name)
     value = getattr(importlib.import_module(f"ucrit.{module}"), attribute)
-    globals()[name] = value
-    return value
+    if isinstance(value, FunctionType):
+        if attribute != name and attribute in _PUBLIC:  # another name for the same function
+            return globals().setdefault(name, __getattr__(attribute))
+        value = importlib.import_module("ucrit.core.asked").asked(value, name)
+    return globals().setdefault(name, value)
 
 
 def __dir__() -> Iterable[str]:

@@ -12,6 +12,11 @@ PICTURES = (".png", ".svg", ".pdf")
 Write = Callable[[Any], None]
 
 
+def written(path: str) -> None:
+    """Say where a result has been written."""
+    print(f"Written to {path}")
+
+
 def writer(path: str, *, pictures: tuple[str, ...] = PICTURES, more: Mapping[str, Write] | None = None) -> Write:
     """Return what writes a result into a file; an ending that is not known is refused before anything is computed.
 

@@ -35,7 +35,7 @@ def show_analysis(console: Console, found: Analysis, report: str | None = None) 
     _remedies(page, found)
     if report is not None:
         page.line()
-        page.line(f"The report is in {report}")
+        page.line(f"Written to {report}")
 
 
 def verdict_word(found: Analysis) -> tuple[str, str]:

@@ -218,7 +218,12 @@ def write_whole(path: PathLike, content: bytes) -> None:
     """
     target = Path(path)
     temporary = None
+    if not os.fspath(path) or target.is_dir():
+        raise UcritError(f"'{os.fspath(path)}' cannot be written: it is {'a folder' if os.fspath(path) else 'no name'}")
     try:
+        if target.exists() and not target.is_file():  # a device or a pipe takes what is written, and stays
+            target.write_bytes(content)
+            return
         with tempfile.NamedTemporaryFile("wb", dir=target.parent, delete=False, suffix=".tmp") as file:
             temporary = file.name
             file.write(content)

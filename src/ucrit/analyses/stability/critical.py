@@ -19,6 +19,7 @@ from ...core.compiled import compiled, direction
 from ...core.errors import UcritError, near_match
 from ...core.model import Model
 from ...core.possible import allowed
+from ...core.units import to_si
 from ..linear.modes import Mode, modes
 from ..results.convert import Series, Table, Tabular
 from .criteria import Boundary, criteria
@@ -135,7 +136,7 @@ class CriticalValues(Tabular):
 
 
 def critical(
-    vehicle: Model, parameter: str | None = None, lower: float | None = None, upper: float | None = None
+    vehicle: Model, parameter: str | None = None, lower: float | str | None = None, upper: float | str | None = None
 ) -> CriticalValues:
     """Find every value of a parameter at which a vehicle's stability changes.
 
@@ -194,13 +195,13 @@ def parameter_name(vehicle: Model, parameter: str | None) -> str:
     return name
 
 
-def _range(vehicle: Model, name: str, lower: float | None, upper: float | None) -> tuple[float, float]:
+def _range(vehicle: Model, name: str, lower: float | str | None, upper: float | str | None) -> tuple[float, float]:
     declared = allowed(vehicle, name)
     least, most = declared.lower, declared.upper
     if declared.is_speed:
         least, most = (max(least, 0.0), most) if direction(vehicle) > 0 else (least, min(most, 0.0))
-    lo = least if lower is None else max(float(lower), least)
-    hi = most if upper is None else min(float(upper), most)
+    lo = least if lower is None else max(to_si(lower, declared.unit, name), least)
+    hi = most if upper is None else min(to_si(upper, declared.unit, name), most)
     if not lo < hi:
         raise UcritError(
             f"{name}: the range from {lo:g} to {hi:g} {declared.unit} is empty; {name} must be {declared.allowed}"
