@@ -12,7 +12,7 @@ Run = Callable[..., Result]
 
 def test_prints_the_limit_and_draws(run: Run, tmp_path: Path) -> None:
     picture = tmp_path / "diagram.svg"
-    done = run("handling", "spinning-car", "--upto", "90 km/h", "--out", str(picture))
+    done = run("handling", "spinning-car", "--at", "90 km/h", "--out", str(picture))
     assert done.exit_code == 0
     assert "spins: the rear axle saturates first" in done.stdout
     assert "at 25 m/s" in done.stdout

@@ -29,6 +29,7 @@ from ...catalogue import (
 from ...core.errors import UcritError, near_match
 from ...core.model import Model
 from ...core.part import Part
+from ...core.record import Record
 from .bibliography import SOFTWARE, Work, works, works_in
 from .show import resolve
 
@@ -64,7 +65,7 @@ class Citation:
 
 
 @dataclass(frozen=True)
-class Citations:
+class Citations(Record):
     """What `cite` finds.
 
     Attributes

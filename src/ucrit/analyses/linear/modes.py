@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ...core.compiled import compiled, direction, labels, state_space
 from ...core.errors import UcritError
 from ...core.model import Model
+from ...core.record import Record
 from ...numerics.assignment import assign
 from ..results.convert import Series, Table, Tabular, complex_series, unit_of
 
@@ -20,7 +21,7 @@ Array = npt.NDArray[Any]
 
 
 @dataclass(frozen=True)
-class Mode:
+class Mode(Record):
     """One real mode or one pair of conjugate modes of a vehicle.
 
     Attributes

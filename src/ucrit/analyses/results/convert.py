@@ -22,6 +22,7 @@ import numpy.typing as npt
 from ...core.compiled import labels, state_space
 from ...core.errors import MissingExtraError, UcritError
 from ...core.model import Model
+from ...core.record import Record
 from .matlab import matlab_names
 
 Array = npt.NDArray[Any]
@@ -98,7 +99,7 @@ def unit_of(vehicle: Model, name: str) -> str:
     return declared.unit if declared else "1"
 
 
-class Tabular:
+class Tabular(Record):
     """What results share: a table, and its conversions."""
 
     def table(self) -> Table:

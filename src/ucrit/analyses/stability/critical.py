@@ -147,7 +147,8 @@ def critical(
     parameter
         The speed by default.
     lower, upper
-        Range [SI]; by default all that the parameter's bounds allow (for a speed, all of its present sign).
+        Range [SI, or text with a unit]; by default all that the parameter's bounds allow (for a speed, all of its
+        present sign).
 
     Returns
     -------
