@@ -36,7 +36,7 @@ def asked(function: Callable[..., Any], name: str) -> Callable[..., Any]:
     Raises `TypeError` for arguments that the function does not have or lacks, `UcritError` for values of a kind that
     its annotations do not name, and for numbers that are not one.
 
-    >>> def half(speed: "float | str", twice: "bool" = False): return speed / 2
+    >>> def half(speed: float | str, twice: bool = False): return speed / 2
     >>> asked(half, "half")(speeed=3)
     Traceback (most recent call last):
     TypeError: half() has no argument 'speeed'; did you mean 'speed'?

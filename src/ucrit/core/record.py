@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Mapping
+from types import MappingProxyType
 from typing import Any
 
 MANY = 4
@@ -29,7 +30,8 @@ class Record:
         """Return what is pickled and copied: the fields, not what was computed from them."""
         if not dataclasses.is_dataclass(self):
             return vars(self)
-        return {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
+        state = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
+        return {name: dict(value) if isinstance(value, MappingProxyType) else value for name, value in state.items()}
 
 
 def _equal(self: Any, other: object) -> Any:
@@ -66,6 +68,8 @@ def _same(one: Any, other: Any) -> bool:
 
 def _brief(value: Any) -> str:
     """Return a value in a few words."""
+    if hasattr(value, "dtype") and not getattr(value, "ndim", 1):
+        return _number(value)
     if hasattr(value, "dtype") and getattr(value, "ndim", 0):
         if value.ndim == 1 and len(value) <= MANY:
             return f"[{', '.join(_number(x) for x in value)}]"
