@@ -30,11 +30,16 @@ class Record:
         """Return what is pickled and copied: the fields, not what was computed from them."""
         if not dataclasses.is_dataclass(self):
             return vars(self)
-        state = {field.name: getattr(self, field.name) for field in dataclasses.fields(self)}
+        fields: Any = _fields(self)
+        state = {field.name: getattr(self, field.name) for field in fields}
         return {name: dict(value) if isinstance(value, MappingProxyType) else value for name, value in state.items()}
 
 
-def _equal(self: Any, other: object) -> Any:
+def _fields(record: Any) -> tuple[dataclasses.Field[Any], ...]:
+    return dataclasses.fields(record)
+
+
+def _equal(self: Any, other: Any) -> Any:
     if type(other) is not type(self):
         return NotImplemented
     names = [field.name for field in dataclasses.fields(self) if field.compare]
@@ -68,9 +73,9 @@ def _same(one: Any, other: Any) -> bool:
 
 def _brief(value: Any) -> str:
     """Return a value in a few words."""
-    if hasattr(value, "dtype") and not getattr(value, "ndim", 1):
+    if getattr(value, "shape", None) == ():
         return _number(value)
-    if hasattr(value, "dtype") and getattr(value, "ndim", 0):
+    if hasattr(value, "dtype"):
         if value.ndim == 1 and len(value) <= MANY:
             return f"[{', '.join(_number(x) for x in value)}]"
         ends = f"[{_number(value[0])} ... {_number(value[-1])}, {len(value)} values]" if value.ndim == 1 else ""
