@@ -178,7 +178,7 @@ def handling_diagram(
     reach = to_si(slip, "rad", "slip")
     if not 0 < reach < np.inf:
         raise UcritError(f"slip must be above 0 rad, got {reach:g} rad")
-    within = {"alpha_f": (-reach, reach), "alpha_r": (-reach, reach), **getattr(type(vehicle), "valid", {})}
+    within = {"alpha_f": (-reach, reach), "alpha_r": (-reach, reach)}
     family = steady_family(vehicle, "a_y", BEYOND * GRAVITY, free=(steer, *others), hold=hold, within=within, step=step)
     return _diagram(vehicle, steer, family, speed)
 

@@ -24,6 +24,9 @@ Array = npt.NDArray[Any]
 BACK = 1e-9
 """The family is back at its start when the moving quantity is this share of its way beyond it."""
 
+MOVING = 0.1
+"""An unknown whose share of change is this part of the largest one goes on where the moving quantity stands still."""
+
 CANNOT = "it cannot be followed further"
 """How the end of a family begins that broke off."""
 
@@ -270,10 +273,22 @@ class Problem:
             "goal": f"{self.along} is where it was to go",
             "start": f"{self.along} is back where it began",
             "closed": "the family closes",
+            "still": self._standing(curve),
             "points": f"after {len(curve.points)} points",
             "failed": f"{CANNOT}: {curve.reason}",
         }
         return known.get(curve.end, curve.end)
+
+    def _standing(self, curve: Curve) -> str:
+        """Say that the moving quantity moves no more, and what does instead."""
+        unknowns = [self.labels[i] for i in self.used] + list(self.freed)
+        gone = np.abs(curve.tangents[-1]) / np.maximum(np.abs(curve.points[-1]), np.finfo(float).tiny)
+        moving = [name for name, share in zip(unknowns, gone, strict=True) if share > MOVING * gone.max()]
+        unit = self.units.get(self.along, "1")
+        value = f"{self.value(self.along, curve.points[-1]):.4g}{'' if unit == '1' else ' ' + unit}"
+        *some, last = moving
+        others = f"{', '.join(some)} and {last} go" if some else f"{last} goes"
+        return f"{self.along} stays at {value} while {others} on"
 
 
 def _null_vector(jacobian: Array) -> Array:
