@@ -35,7 +35,7 @@ def solved(mu, intervals, adaptations=0):
         if number >= len(steps) - adaptations:
             found = found.on(adapted_mesh(found, METRIC.states, intervals))
         guess = Orbit(found.mesh, found.values, found.period, value)
-        result = correct(VAN_DER_POL, guess, Tangent(0 * guess.values, 0.0, 1.0), METRIC)
+        result = correct(VAN_DER_POL, guess, Tangent(0 * guess.values, 0.0, 1.0, 0 * guess.mesh), METRIC)
         found = result.orbit
     return result
 
@@ -112,4 +112,4 @@ def test_a_mesh_is_fine_where_the_motion_is_quick():
 def test_no_solution_is_none():
     mesh = np.linspace(0, 1, 11)
     nothing = Orbit(mesh, np.full((10, 5, 2), np.nan), 6.0, 1.0)
-    assert correct(VAN_DER_POL, nothing, Tangent(0 * nothing.values, 0.0, 1.0), METRIC) is None
+    assert correct(VAN_DER_POL, nothing, Tangent(0 * nothing.values, 0.0, 1.0, 0 * nothing.mesh), METRIC) is None

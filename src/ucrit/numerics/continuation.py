@@ -254,7 +254,7 @@ class _Walk:
         return near and same and float(t @ old) < 0 <= float(t @ now)
 
     def look(self, tests: Mapping[str, Test], signs: dict[str, float], new: Point, h: float) -> None:
-        """Locate the tests' changes of sign in a step, in the order in which they come; ``signs`` has the last signs."""
+        """Locate the tests' changes of sign in a step, in the order in which they come; ``signs`` are the last ones."""
         here = []
         for name, test in tests.items():
             value = test(new)

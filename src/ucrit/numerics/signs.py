@@ -1,4 +1,4 @@
-"""On which side of the imaginary axis eigenvalues lie, where the entries of a matrix are known but for their rounding."""
+"""On which side of the imaginary axis eigenvalues lie, where a matrix is known but for its rounding."""
 
 from __future__ import annotations
 

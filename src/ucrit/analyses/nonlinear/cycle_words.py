@@ -22,6 +22,8 @@ ENDS = {
     "range": "",
     "equilibrium": "the branch ends in another critical value",
     "large": "the branch is not followed to angles beyond 90 degrees",
+    "endless": "the branch goes on to ever larger cycles at the same value",
+    "slides": "the branch is not followed further: the motion would slide along a jump of a law",
     "stuck": "the branch cannot be followed further",
     "count": "the branch is not followed further",
 }
