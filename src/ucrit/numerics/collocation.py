@@ -128,13 +128,13 @@ def correct(field: Field, guess: Orbit, along: Tangent, metric: Metric, jumps: S
         if solved is None:
             return None
         change, tangent, transfers = solved
-        orbit = moved(orbit, change, 1.0)
         size = max(
             float(np.max(np.abs(change.values) / metric.states)),
             abs(change.period / metric.period),
             abs(change.parameter / metric.parameter),
             float(np.max(np.abs(change.mesh))),
         )
+        orbit = moved(orbit, change, 1.0)
         if not np.isfinite(size) or size > 1e3 or orbit.period <= 0 or np.any(orbit.widths <= 0):
             return None
         if size < CONVERGED * max(1.0, abs(orbit.parameter / metric.parameter)):

@@ -216,7 +216,27 @@ def _advance(field: Field, here: Point, step: float) -> tuple[Corrected | None, 
         if found is not None and _cosine(found, here.orbit, ahead, metric) > least:
             return found, step, found.steps
         step /= 2
-    return None, step, slides
+    found = _round_corner(field, here)
+    return found, STEP / 10, slides if found is None else found.steps
+
+
+def _round_corner(field: Field, here: Point) -> Corrected | None:
+    """Return a solution a little farther in the parameter, where no step along the old direction leads to one.
+
+    Where a cycle begins to touch a jump, its size and what it does may change at any rate.
+    """
+    if field.switches is None or not here.tangent.parameter:
+        return None
+    sense = float(np.sign(here.tangent.parameter))
+    ahead = Tangent(0 * here.orbit.values, 0.0, sense, 0 * here.orbit.mesh)
+    for share in (1e-1, 1e-2, 1e-3, 1e-4):
+        try:
+            found = settle(field, orbits.moved(here.orbit, ahead, share * here.metric.parameter), ahead, here.metric)
+        except SlidingError:
+            continue
+        if found is not None:
+            return found
+    return None
 
 
 def _cosine(found: Corrected, orbit: Orbit, ahead: Tangent, metric: Metric) -> float:
@@ -268,11 +288,20 @@ def locate(field: Field, a: Point, b: Point, miss: Callable[[Corrected], float])
 def at_parameter(field: Field, a: Point, b: Point, value: float) -> Point | None:
     """Return the periodic solution at a value of the parameter between those of two neighbours."""
     near = locate(field, a, b, lambda found: found.orbit.parameter - value)
-    if near is None:
-        return None
-    exact = replace(near.orbit, parameter=value)
-    only = Tangent(np.zeros_like(exact.values), 0.0, 1.0, 0 * exact.mesh)
-    found = settle(field, exact, only, near.metric)
-    if found is None or abs(found.orbit.period / exact.period - 1) > 1e-6:
+    if near is None:  # a corner between them: the solution is like that of one of them
+        return next((found for found in (_kept(field, b, value), _kept(field, a, value)) if found), None)
+    found = _kept(field, near, value)
+    if found is None or abs(found.orbit.period / near.orbit.period - 1) > 1e-6:
         return replace(near, fold=False)
-    return replace(_point(field, found, near.metric), tangent=near.tangent)
+    return replace(found, tangent=near.tangent)
+
+
+def _kept(field: Field, near: Point, value: float) -> Point | None:
+    """Return the periodic solution at a value of the parameter that is found from a point beside it."""
+    guess = replace(near.orbit, parameter=value)
+    only = Tangent(np.zeros_like(guess.values), 0.0, 1.0, 0 * guess.mesh)
+    try:
+        found = settle(field, guess, only, near.metric)
+    except SlidingError:
+        return None
+    return None if found is None else _point(field, found, near.metric)

@@ -58,8 +58,7 @@ def _kinks(field: Field, orbit: Orbit) -> tuple[Array, Array]:
     if field.switches is None:
         return none
     inside = orbit.mesh[:-1, None] + orbit.widths[:, None] * PROBES[:-1]
-    shares = np.append(inside.ravel(), 1.0)
-    values = field.switches(orbit.at(shares), orbit.parameter)
+    shares, values = _sampled(field, orbit, np.append(inside.ravel(), 1.0))
     which, place = np.nonzero((values[:, :-1] >= 0) != (values[:, 1:] >= 0))
     sound = np.isfinite(values[which, place]) & np.isfinite(values[which, place + 1])
     which, place = which[sound], place[sound]
@@ -86,6 +85,26 @@ def jumps(field: Field, orbit: Orbit, shares: Array, rows: Array) -> tuple[Jump,
             if np.any(np.abs(after - before) > JUMPS * size):
                 found.append(Jump(point, int(row)))
     return tuple(found)
+
+
+def _sampled(field: Field, orbit: Orbit, shares: Array) -> tuple[Array, Array]:
+    """Return switching values at places, and at those between them where one has just begun to touch zero."""
+    assert field.switches is not None
+    values = field.switches(orbit.at(shares), orbit.parameter)
+    left, here, right = values[:, :-2], values[:, 1:-1], values[:, 2:]
+    a, b = np.diff(shares)[:-1], np.diff(shares)[1:]
+    with np.errstate(all="ignore"):
+        rise, fall = (here - left) / a, (right - here) / b
+        bend = 2 * (fall - rise) / (a + b)
+        slope = (b * rise + a * fall) / (a + b)
+        away = -slope / bend
+        peak = here + away * slope / 2
+        touches = (here * peak <= 0) & (here * left > 0) & (here * right > 0) & (away > -a) & (away < b)
+    if not touches.any():
+        return shares, values
+    rows, places = np.nonzero(touches)
+    shares = np.unique(np.append(shares, shares[places + 1] + away[rows, places]))
+    return shares, field.switches(orbit.at(shares), orbit.parameter)
 
 
 def _roots(field: Field, orbit: Orbit, which: Array, ends: tuple[Array, Array], values: tuple[Array, Array]) -> Array:

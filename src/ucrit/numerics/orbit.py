@@ -139,7 +139,8 @@ def norm(tangent: Tangent, widths: Array, metric: Metric) -> float:
 
 def scaled(tangent: Tangent, factor: float) -> Tangent:
     """Return a direction times a number."""
-    return Tangent(*(part * factor for part in tangent))
+    values, period, parameter, mesh = tangent
+    return Tangent(values * factor, period * factor, parameter * factor, mesh * factor)
 
 
 def carried(tangent: Tangent, orbit: Orbit, mesh: Array) -> Tangent:

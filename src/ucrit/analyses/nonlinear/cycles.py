@@ -179,8 +179,14 @@ def limit_cycles(
             if progress is not None:
                 progress(number * most + done, len(flutter) * most)
 
+        begun = _hopf(vehicle, moving, event)
+        if _jumps(moving, begun):
+            raise UcritError(
+                f"{type(vehicle).model_id()}: a law jumps on the basic motion itself, as dry friction does, so that no "
+                f"small oscillation begins at {event.parameter} = {event.value:.6g} from which cycles could be followed"
+            )
         options: Any = {"tolerance": tolerance, "beyond": _sideways(vehicle), "progress": advance}
-        branch = follow(moving, _hopf(vehicle, moving, event), low, high, **options)
+        branch = follow(moving, begun, low, high, **options)
         found.append(_result(vehicle, event, moving, branch))
     if progress is not None:
         progress(1, 1)
@@ -222,6 +228,18 @@ def _hopf(vehicle: Model, moving: Field, event: Critical) -> Hopf:
     eigenvalues, vectors = np.linalg.eig(A)
     nearest = int(np.argmin(np.abs(eigenvalues - 2j * np.pi * event.frequency_hz)))
     return Hopf(event.value, rest, float(eigenvalues[nearest].imag), vectors[:, nearest])
+
+
+def _jumps(moving: Field, begun: Hopf) -> bool:
+    """Tell whether the rates jump where a branch begins: they then differ on its sides however small the motion is."""
+    angles = np.exp(2j * np.pi * np.arange(8) / 8)
+    wave = np.real(begun.vector[:, None] * angles)
+    across = [
+        np.abs(moving.rates(begun.state[:, None] + s * wave, begun.parameter)
+               - moving.rates(begun.state[:, None] - s * wave, begun.parameter)).max()
+        for s in (1e-4, 1e-7)
+    ]  # fmt: skip
+    return bool(across[1] > 0.1 * across[0])
 
 
 def _result(vehicle: Model, event: Critical, moving: Field, branch: Branch | None) -> CycleBranch:
