@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..linear.steady import GRAVITY
+from ..stability.wording import speed_text
 from .steady_problem import CANNOT
 
 if TYPE_CHECKING:
@@ -34,8 +35,7 @@ def acceleration(a_y: float) -> str:
 def sentences(found: Handling) -> list[str]:
     """Return the lines that a handling diagram prints: limit, gradient, ranges, end."""
     vehicle = found.vehicle
-    speed = float(vehicle.values[type(vehicle).declaration.speed or ""])
-    head = f"{vehicle.info.name or type(vehicle).model_id()}: steady turns at {speed:.4g} m/s"
+    head = f"{vehicle.info.name or type(vehicle).model_id()}: steady turns {found.turns.words}"
     limit = LIMITS.get(found.limit)
     largest = f"    largest lateral acceleration {acceleration(found.largest)}"
     if not limit:
@@ -53,6 +53,8 @@ def sentences(found: Handling) -> list[str]:
         lines.append(
             f"    with the steering held, unstable from {acceleration(found.unstable_from)} on: {change.kind}{at}"
         )
+    if found.turns.constant != "speed":
+        lines.append(f"    speed from {speed_text(found.speed[0])} to {speed_text(float(found.speed.max()))}")
     return [*lines, *wrapped(f"ends: {found.family.end}")]
 
 

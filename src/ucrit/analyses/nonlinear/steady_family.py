@@ -164,10 +164,11 @@ def steady_family(
     to
         Value [SI, or text with a unit] at which it ends.
     free
-        Inputs or parameters that adjust themselves: one for every quantity held, and one more if a state or an
-        output moves.
+        Inputs or parameters that adjust themselves: one for every state or output held, and one more if a state or
+        an output moves.
     hold
-        States or outputs that keep a value [SI, or text with a unit]: a speed, the curvature of a turn.
+        States, outputs or inputs that keep a value [SI, or text with a unit]: a speed, the curvature of a turn, a
+        steer angle.
     within
         Lowest and highest value of quantities, by name; the family ends where one is reached. The ranges in which
         the model's equations are good (its ``valid``) need not be given.
@@ -267,7 +268,7 @@ def _result(problem: Problem, curve: Curve, sides: _Sides) -> SteadyFamily:
     turns = tuple(v for v in found["fold"]), tuple(found["branch"])
     end = problem.words(curve)
     return SteadyFamily(
-        problem.vehicle, problem.along, problem.freed, values, rates, problem.units, eigenvalues, unstable,
+        problem.vehicle, problem.along, problem.free, values, rates, problem.units, eigenvalues, unstable,
         tuple(changes), *turns, end,
     )  # fmt: skip
 

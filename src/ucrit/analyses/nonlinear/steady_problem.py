@@ -47,11 +47,13 @@ class Problem:
             raise UcritError(f"{self.model}: no state can be steady or not: nothing depends on any of them")
         self._check_names(free, hold)
         movable = along in self.inputs or along in self.parameters
-        self.freed = (along, *free) if movable else free
+        held = tuple(name for name in hold if name in self.inputs)
+        self.freed = (*((along, *free) if movable else free), *held)
+        self.free = self.freed[: len(self.freed) - len(held)]
         self.hold = {name: self.number(name, value) for name, value in hold.items()}
         needed = len(self.hold) + 1
         if len(self.freed) != needed:
-            extra = needed - movable
+            extra = needed - movable - len(held)
             s = "s" * (extra != 1)
             raise UcritError(
                 f"{self.model}: {extra} input{s} or parameter{s} must be free to move "
@@ -63,7 +65,7 @@ class Problem:
 
     def _check_names(self, free: tuple[str, ...], hold: Mapping[str, Any]) -> None:
         movable = (*self.inputs, *self.parameters)
-        fixed = (*(self.labels[i] for i in self.used), *self.outputs)
+        fixed = (*(self.labels[i] for i in self.used), *self.outputs, *self.inputs)
         for name in free:
             if name not in movable:
                 raise UcritError(f"{self.model}: there is no input or parameter '{name}'{near_match(name, movable)}")
@@ -71,7 +73,7 @@ class Problem:
                 raise UcritError(f"{self.model}: {name} is named twice, as free and as moved, held or free")
         for name in hold:
             if name not in fixed:
-                raise UcritError(f"{self.model}: there is no state or output '{name}'{near_match(name, fixed)}")
+                raise UcritError(f"{self.model}: there is no state, input or output '{name}'{near_match(name, fixed)}")
         if self.along not in (*movable, *fixed):
             known = (*movable, *fixed)
             raise UcritError(f"{self.model}: there is no quantity '{self.along}'{near_match(self.along, known)}")
