@@ -200,8 +200,12 @@ def steady_family(
     freed = (free,) if isinstance(free, str) else tuple(free)
     problem = Problem(vehicle, along, freed, hold or {})
     goal = problem.number(along, to)
-    asked = {**getattr(type(vehicle), "valid", {}), **(within or {})}
-    limits = {name: tuple(problem.number(name, side) for side in sides) for name, sides in asked.items()}
+    limits: dict[str, tuple[float, ...]] = {}
+    for bounds in (getattr(type(vehicle), "valid", {}), within or {}):
+        for name, sides in bounds.items():
+            low, high = limits.get(name, (-np.inf, np.inf))
+            one, other = (problem.number(name, side) for side in sides)
+            limits[name] = max(low, one), min(high, other)
     start = problem.start()
     first = problem.value(along, start)
     if goal == first:
