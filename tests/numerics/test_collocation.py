@@ -79,7 +79,9 @@ def test_the_period_converges_with_order_eight():
 @pytest.mark.parametrize("mu", [0.3, 1.0, 2.0])
 def test_the_multiplier_is_liouvilles(mu):
     found = solved(mu, 60, adaptations=2)
-    (multiplier,), trivial = multipliers(found.monodromy)
+    (multiplier,), trivial = multipliers(
+        found.monodromy, VAN_DER_POL.rates(found.orbit.values[0, :1].T, mu)[:, 0], METRIC.states
+    )
     shares = np.linspace(0, 1, 20001)
     divergence = mu * (1 - found.orbit.at(shares)[0] ** 2)
     assert multiplier == pytest.approx(math.exp(found.orbit.period * np.trapezoid(divergence, shares)), rel=1e-6)

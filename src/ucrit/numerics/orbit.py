@@ -12,6 +12,9 @@ import numpy.typing as npt
 Array = npt.NDArray[Any]
 
 DEGREE = 4
+ALIKE = 1e-3
+"""Multipliers nearer to 1 than this are told apart from the trivial one by its eigenvector."""
+
 GAUSS, GAUSS_WEIGHTS = (
     0.5 * (np.polynomial.legendre.leggauss(DEGREE)[0] + 1),
     0.5 * np.polynomial.legendre.leggauss(DEGREE)[1],
@@ -198,11 +201,16 @@ def adapted_mesh(orbit: Orbit, sizes: Array, count: int, kinks: Array | None = N
 def multipliers(monodromy: Array, rates: Array, sizes: Array) -> tuple[Array, float]:
     """Return the Floquet multipliers but for the trivial one, largest first, and how far that is from 1.
 
-    The rates where the period begins are the trivial multiplier's eigenvector; the others are those of what is left at
-    right angles to it, also where one of them is 1 too.
+    Where another one is near 1, the rates where the period begins tell them apart: they are the trivial one's
+    eigenvector, and the others are those of what is left at right angles to it.
     """
-    scaled, along = monodromy * (sizes / sizes[:, None]), rates / sizes
-    along = along / np.linalg.norm(along)
-    frame, _ = np.linalg.qr(np.column_stack([along, np.eye(len(along))]))
-    rest = np.linalg.eigvals(frame[:, 1:].T @ scaled @ frame[:, 1:])
-    return rest[np.argsort(-np.abs(rest), kind="stable")], float(np.linalg.norm(scaled @ along - along))
+    found = np.linalg.eigvals(monodromy)
+    trivial = int(np.argmin(np.abs(found - 1)))
+    rest, off = np.delete(found, trivial), float(abs(found[trivial] - 1))
+    if np.any(np.abs(rest - 1) < ALIKE):
+        scaled, along = monodromy * (sizes / sizes[:, None]), rates / sizes
+        along = along / np.linalg.norm(along)
+        frame, _ = np.linalg.qr(np.column_stack([along, np.eye(len(along))]))
+        rest = np.linalg.eigvals(frame[:, 1:].T @ scaled @ frame[:, 1:])
+        off = float(np.linalg.norm(scaled @ along - along))
+    return rest[np.argsort(-np.abs(rest), kind="stable")], off

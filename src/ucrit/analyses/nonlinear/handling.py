@@ -187,7 +187,7 @@ def handling_diagram(
     ('spin', 7.845, 6.841)
     >>> circle = handling_diagram(load("ploughing-car"), radius="60 m")
     >>> circle.limit, round(float(circle.speed.max()), 2)
-    ('plough-out', 22.2)
+    ('plough-out', 22.17)
     """
     _refuse_unfit(vehicle, steer)
     keeps: dict[str, str] = getattr(type(vehicle), "keeps_speed", {})
