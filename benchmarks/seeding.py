@@ -49,7 +49,9 @@ def _bodies(tree: ast.Module, function: str) -> Iterator[tuple[str, ast.AST]]:
             for item in node.body:
                 if isinstance(item, ast.FunctionDef) and item.name != "drawing":
                     yield item.name, item
-                elif isinstance(item, ast.Assign) and (isinstance(item.value, ast.Constant) or _is_property(item.value)):
+                elif isinstance(item, ast.Assign) and (
+                    isinstance(item.value, ast.Constant) or _is_property(item.value)
+                ):
                     yield "class body", item
 
 

@@ -91,7 +91,9 @@ def _position(analysis: Analysis) -> str:
     if not count:
         return ""
     roots = "a zero root" if count == 1 else f"{count} zero roots"
-    return f" ({roots}: places and directions that nothing restores, harmless)"
+    staying = [mode.name for mode in analysis.modes if mode.eigenvalue == 0]
+    names = " and ".join(filter(None, (", ".join(staying[:-1]), *staying[-1:])))
+    return f" ({roots}: {names}, which nothing restores, harmless)"
 
 
 def _at_a_point(analysis: Analysis) -> str:
