@@ -70,7 +70,7 @@ def _growth(analysis: Analysis) -> str:
         how = f"the {subject} oscillation grows at {mode.frequency_hz:.2g} Hz"
     else:
         how = f"the {subject} motion runs away"
-    return f"{how}, doubling in {mode.time_to_double:.2g} s"
+    return f"{how}, doubling in {float(f'{mode.time_to_double:.2g}'):g} s"
 
 
 def _beyond(analysis: Analysis, top: float, say: Callable[[float], str]) -> str:
