@@ -7,22 +7,29 @@ Sphinx does the rest; its warnings are errors.
 
 import argparse
 import hashlib
+import inspect
 import re
 import shutil
 import sys
 import tempfile
+import textwrap
 from pathlib import Path
 
-import commands
-import interface
-from execute import run_page
-
-import models
-from ucrit.catalogue import model_names, vehicle_names
-
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "docs" / "images"))
+
+import commands  # noqa: E402
+import interface  # noqa: E402
+from draw import PICTURES, check, command  # noqa: E402
+from execute import run_page  # noqa: E402
+from pictures import SLOW  # noqa: E402
+
+import models  # noqa: E402
+from ucrit.catalogue import model_names, vehicle_names  # noqa: E402
+
 DOCS = ROOT / "docs"
-LINK = re.compile(r"(\]\()([^)\s]+)(\))")
+LINK = re.compile(r"(\]\()([^)\s]+)((?: \"[^\"]*\")?\))")
+PICTURE = re.compile(r"^!\[.*\]\(images/([\w-]+)\.png .*\)$", re.MULTILINE)
 NAME = re.compile(r"(?<![\[`])`([a-z0-9-]+)`(?![`\]])")
 LANGUAGE = re.compile(r"^(`{3,})(\w+)$", re.MULTILINE)
 
@@ -68,33 +75,45 @@ def linked(match):
     return f"[`{name}`](reference/models/{name}.md)" if name in model_names() else match[0]
 
 
+def explained(match):
+    """Return a picture with what draws it below, folded up."""
+    if match[1] not in PICTURES:
+        return match[0]
+    code = textwrap.dedent(inspect.getsource(PICTURES[match[1]])).rstrip()
+    told = f"<summary>How this is drawn</summary>\n\n`{command(match[1])}`\n\n```python\n{code}\n```"
+    return f'{match[0]}\n\n<details class="drawn">{told}\n\n</details>'
+
+
 def page(path):
     """Return a page's text with its links adjusted, links to the reference, and no language that cannot be coloured."""
     text = LANGUAGE.sub(lambda match: match[1] + coloured(match[2]), path.read_text(encoding="utf-8"))
     text = LINK.sub(lambda match: match[1] + moved(match[2]) + match[3], text)
+    text = PICTURE.sub(explained, text)
     parts = re.split(r"(^```.*?^```$)", text, flags=re.MULTILINE | re.DOTALL)
     return "".join(part if part.startswith("```") else NAME.sub(linked, part) for part in parts)
 
 
 def execute(pages, folder):
-    """Run the pages that are not known to be right for the package as it is; return what is wrong, a text a page."""
+    """Run the pages, and draw the slow pictures, that are not known to be right; return what is wrong, by name."""
     package = hashlib.sha256()
-    for path in sorted((ROOT / "src").rglob("*")):
+    for path in sorted((*(ROOT / "src").rglob("*"), *(DOCS / "images").glob("*.py"))):
         if path.is_file() and path.suffix not in (".pyc",):
             package.update(path.read_bytes())
     wrong = {}
-    for name, path in pages.items():
+    for name, path in {**pages, **{name: DOCS / "images" / f"{name}.png" for name in sorted(SLOW)}}.items():
         stamp = folder / "run" / name
         state = hashlib.sha256(path.read_bytes() + package.digest()).hexdigest()
         if stamp.is_file() and stamp.read_text(encoding="utf-8") == state:
             continue
         with tempfile.TemporaryDirectory() as place:
             try:
-                run_page(path, Path(place), folder / "cache")
+                told = check(name) if name in SLOW else run_page(path, Path(place), folder / "cache")
             except AssertionError as error:
-                wrong[name] = str(error)
-                continue
-        write(stamp, state)
+                told = str(error)
+        if told:
+            wrong[name] = told
+        else:
+            write(stamp, state)
     return wrong
 
 
