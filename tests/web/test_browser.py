@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import runpy
 from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
@@ -403,6 +404,15 @@ def test_turns_and_limit_cycles_are_asked_where_they_are_looked_at(open_page: Op
     assert page.page.locator("#handling-card").is_hidden()
     assert page.page.locator("#amplitude .line").count() >= 4
     assert "A disturbed vehicle may keep oscillating from 22.62 m/s" in page.text("#cycles-facts")
+
+
+def test_the_picture_of_the_page_in_its_description_is_current(open_page: Open) -> None:
+    drawn = runpy.run_path(str(Path(__file__).parents[2] / "docs" / "images" / "app.py"))
+    page = open_page(drawn["LINK"])
+    page.page.set_viewport_size(drawn["SIZE"])
+    drawn["wait"](page.page)
+    page.page.wait_for_function("document.querySelector('#map svg').clientWidth == document.querySelector('#map').clientWidth")
+    assert drawn["words"](page.page) == drawn["kept"](), "draw it again: python docs/images/app.py"
 
 
 def test_everything_has_a_name_for_those_who_do_not_see_it(open_page: Open) -> None:
