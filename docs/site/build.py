@@ -30,13 +30,17 @@ from ucrit.catalogue import model_names, vehicle_names  # noqa: E402
 DOCS = ROOT / "docs"
 LINK = re.compile(r"(\]\()([^)\s]+)((?: \"[^\"]*\")?\))")
 PICTURE = re.compile(r"^!\[.*\]\(images/([\w-]+)\.png .*\)$", re.MULTILINE)
+LINKED = re.compile(r"\]\(([\w-]+)\.md\)")
 NAME = re.compile(r"(?<![\[`])`([a-z0-9-]+)`(?![`\]])")
 LANGUAGE = re.compile(r"^(`{3,})(\w+)$", re.MULTILINE)
-
-FIRST = ("readme", "add-a-vehicle", "measurements")
-"""Pages that stand first; the others follow by their names."""
-
-TITLES = {"readme": "Read me first <readme>"}
+REFERENCE = [
+    "reference/models/index",
+    "reference/vehicles",
+    "reference/laws",
+    "reference/commands",
+    "reference/python/index",
+    "changelog",
+]
 
 
 def write(path, text):
@@ -117,28 +121,23 @@ def execute(pages, folder):
     return wrong
 
 
-def index(names):
-    """Return the first page: the one that is written, and the lists that make the menu."""
-    chapters = [name for name in names if name.startswith("chapter-")]
-    rest = sorted(set(names) - set(chapters) - {*FIRST, "index", "changelog"})
-    menus = {
-        "Pages": [*(TITLES.get(name, name) for name in FIRST if name in names), *rest],
-        "Vehicle Stability, by chapter": chapters,
-        "Examples": ["gallery/index"],
-        "Reference": [
-            "reference/models/index",
-            "reference/vehicles",
-            "reference/laws",
-            "reference/commands",
-            "reference/python/index",
-            "changelog",
-        ],
-    }
+def titled(name):
+    """Return a page as the menu has it: by its own title, or by one that tells more."""
+    return "Read me first <readme>" if name == "readme" else name
+
+
+def index():
+    """Return the first page, and the menu: the pages under each of its headings, in their order."""
+    text = page(DOCS / "index.md")
+    first, *parts = re.split(r"^## ", text, flags=re.MULTILINE)
+    menus = {"": first, **dict(part.split("\n", 1) for part in parts)}
+    menus = {title.replace("*", ""): dict.fromkeys(map(titled, LINKED.findall(part))) for title, part in menus.items()}
+    menus |= {"Examples": ["gallery/index"], "Reference": REFERENCE}
     lists = [
-        f"```{{toctree}}\n:hidden:\n:caption: {title}\n\n" + "\n".join(found) + "\n```"
+        "```{toctree}\n:hidden:\n" + f":caption: {title}\n" * bool(title) + "\n" + "\n".join(found) + "\n```"
         for title, found in menus.items()
     ]
-    return page(DOCS / "index.md") + "\n" + "\n\n".join(lists) + "\n"
+    return text + "\n" + "\n\n".join(lists) + "\n"
 
 
 def sources():
@@ -150,7 +149,7 @@ def sources():
 def stage(folder):
     """Write everything that Sphinx reads."""
     pages = sources()
-    wanted = {folder / "index.md": index(list(pages))}
+    wanted = {folder / "index.md": index()}
     wanted |= {folder / f"{name}.md": page(path) for name, path in pages.items() if name != "index"}
     for part in (models, commands, interface):
         wanted |= {folder / "reference" / name: text for name, text in part.pages().items()}
