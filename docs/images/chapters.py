@@ -87,7 +87,7 @@ def trailer_damping():
     c = np.array([0, 12e3])
     axes.plot(c, rigid * c, color=style.colour(1), linestyle=style.dash(1), linewidth=1.6, zorder=5)
     axes.set_ylim(1, 40)
-    style.label(axes, "tires that do not slip", (8600, 33.4), rotation=39, ha="center", va="top")
+    style.label(axes, "tires that do not slip", (4500, 20.9), rotation=32, ha="center", va="top")
     return figure
 
 
