@@ -411,7 +411,9 @@ def test_the_picture_of_the_page_in_its_description_is_current(open_page: Open) 
     page = open_page(drawn["LINK"])
     page.page.set_viewport_size(drawn["SIZE"])
     drawn["wait"](page.page)
-    page.page.wait_for_function("document.querySelector('#map svg').clientWidth == document.querySelector('#map').clientWidth")
+    page.page.wait_for_function(
+        "(m => m.clientWidth == m.querySelector('svg').clientWidth)(document.getElementById('map'))"
+    )
     assert drawn["words"](page.page) == drawn["kept"](), "draw it again: python docs/images/app.py"
 
 

@@ -195,7 +195,7 @@ def _linear(vehicle: Model, moving: Field, name: str) -> bool:
     rest, _ = motion(type(vehicle)).basic(vehicle.arguments())
     ways = np.random.default_rng(0).normal(size=(len(rest), 4)) * [0, 1e-2, 0.1, 1]
     value = float(vehicle.values[name])
-    if len(moving.switches(rest[:, None] + ways, value)):
+    if moving.switches is not None and len(moving.switches(rest[:, None] + ways, value)):
         return False
     A, _ = moving.slopes(rest[:, None] + ways, value)
     return bool(np.abs(A - A[:1]).max() <= 1e-9 * np.abs(A[0]).max())
