@@ -49,7 +49,7 @@ def test_a_page_that_shows_something_else_fails(tmp_path):
         run_page(page, tmp_path, tmp_path / "cache")
 
 
-@pytest.mark.parametrize("name", sorted(set(draw.PICTURES) - pictures.SLOW))
+@pytest.mark.parametrize("name", sorted(n for n, when in pictures.COMPARED.items() if when == "tests"))
 def test_a_picture_shows_what_is_found_now(name):
     assert not draw.check(name)
 

@@ -60,7 +60,7 @@ def windy_car():
     return module.WindyCar(m=1500, I_z=2500, a=1.25, b=1.5, x_w=0.4, U=25, **tires)
 
 
-@picture("chapter-11-robust", slow=True)
+@picture("chapter-11-robust", compared="build")
 def robustness():
     car, reference = windy_car(), load("neutral-car")
     changed = ["m", "I_z", "front_C", "rear_C", "front_mu", "rear_mu"]

@@ -31,7 +31,7 @@ def three_curves(motions):
     return figure
 
 
-@picture("stability-control-dwell", slow=True)
+@picture("stability-control-dwell", compared="build")
 def dwell():
     """The sine with dwell of 7 degrees at 80 km/h."""
     cars = {"without": BARE, "with control": CAR}
@@ -40,7 +40,7 @@ def dwell():
     )
 
 
-@picture("stability-control-split", slow=True)
+@picture("stability-control-split", compared="build")
 def split():
     """Full braking from 80 km/h with 0.3 of the friction on the left."""
     road, brake = {"mu_left": 0.3}, {"brake": 9000}
@@ -74,7 +74,7 @@ def largest(car, U, top, step):
     return low
 
 
-@picture("stability-control-limits", slow=True)
+@picture("stability-control-limits", compared="hand")
 def limits():
     """Largest steer angle of a sine with dwell that is passed, over speed."""
     figure, axes = figure_with_axes(3.0)

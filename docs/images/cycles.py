@@ -9,7 +9,7 @@ from ucrit import limit_cycles, load, plot, simulate
 from ucrit.plots import style
 
 
-@picture("beyond-nose-gear", slow=True)
+@picture("beyond-nose-gear", compared="build")
 def nose_gear():
     """Amplitude against speed, and the simulation that comes to the cycle."""
     gear = load("nose-gear", {"k": -10})
@@ -38,7 +38,7 @@ def caravan():
     return plot(limit_cycles(load("caravan-with-stabiliser"), upper=40), figure=figure)
 
 
-@picture("beyond-caravan-motion", slow=True)
+@picture("beyond-caravan-motion", compared="build")
 def motions_of_caravan():
     """One motion on either side of the unstable cycle."""
     figure, axes = figure_with_axes(2.7)

@@ -27,17 +27,15 @@ SEEN = 0.005
 
 PICTURES = {}
 """What draws each picture, by the name of its file."""
-SLOW = set()
-"""Pictures that take many seconds: compared where the pages are built, not by the tests."""
+COMPARED = {}
+"""When each is compared with what is found: by the "tests", at each "build" of the pages, or only by "hand"."""
 
 
-def picture(name, slow=False):
-    """Register a function that returns a figure."""
+def picture(name, compared="tests"):
+    """Register a function that returns a figure, and when it is compared."""
 
     def register(draw):
-        PICTURES[name] = draw
-        if slow:
-            SLOW.add(name)
+        PICTURES[name], COMPARED[name] = draw, compared
         return draw
 
     return register
