@@ -261,12 +261,23 @@ def test_no_gpu_is_said():
 
 
 def test_the_kernel_for_gpus_in_numbas_simulator():
+    """Several segments of both axes, both directions of running, and launches of few rows, columns and points."""
     code = (
-        "import numpy as np; from ucrit import load, stability_map\n"
-        "for name, x, y in (('caravan', 'c', 'U'), ('coach-truck', 'c_s', 'V')):\n"
-        "    v = load(name); grid = {n: float(v.values[n])*np.linspace(.3, 3, 7) for n in (x, y)}\n"
-        "    one, two = (stability_map(v, engine=e, **grid).stable for e in ('numpy', 'cuda'))\n"
-        "    assert (one == two).all() and one.any() and not one.all(), name\n"
+        "import numpy as np; from ucrit import find_model, load, stability_map\n"
+        "from ucrit.analyses.stability import device; from ucrit.core import kernels\n"
+        "kernels.THREADS, device.PIECE = 4, 5\n"
+        "U, c = np.array([-20., -1, -15, 0.7, 9, 14, 21, 28, 60]), np.geomspace(1, 1e4, 9)\n"
+        "V, k = np.array([2., 9, 20, 35, 70]), np.array([0., 30, 300, 2e3, 2e4])\n"
+        "free = find_model('trailer-rigid-tire-undamped')(m=1000, I_c=1500, a=1.5, b=1, k=1e4, U=20)\n"
+        "for points, rows in ((2**28, 2**20), (20, 2), (4, 1)):\n"
+        "    device.POINTS, device.ROWS = points, rows\n"
+        "    for name, grid in (('marginal', dict(b=[.99, 1, 1.01])), ('caravan', dict(U=U, c=c)),\n"
+        "            ('caravan', dict(c=c, U=U)), ('caravan', dict(U=U)),\n"
+        "            ('caravan', dict(c=c, U=U)), ('caravan', dict(U=U)),\n"
+        "            ('caravan', dict(m=[900, 1500], c=[1., 4e3], U=U)), ('coach-truck', dict(c_s=k, V=V))):\n"
+        "        v = free if name == 'marginal' else load(name)\n"
+        "        one, two = (stability_map(v, engine=e, **grid).stable for e in ('numpy', 'cuda'))\n"
+        "        assert (one == two).all() and one.any() and not one.all(), (name, list(grid), points)\n"
     )
     done = subprocess.run(
         [sys.executable, "-c", code],
@@ -283,8 +294,9 @@ def test_the_kernel_compiles_for_gpus_that_are_not_there():
     import numba
     from numba import cuda
 
-    row, table = numba.float64[::1], numba.float64[:, ::1]
-    given = (row, row, numba.int64[::1], table, numba.int64, row, numba.uint8[:, ::1])
+    row, table, whole = numba.float64[::1], numba.float64[:, ::1], numba.int64[::1]
+    given = (row, numba.float64[:, :, ::1], whole, whole, table, numba.int64[:, ::1], row)
+    given += (numba.uint8[:, ::1], numba.uint8[::1])
     for name, outer, inner in (("caravan", "c", "U"), ("chain", "k", "c")):
         vehicle = Chain(m=1, k=1, c=0.1, f=0.3) if name == "chain" else load(name)
         names, made = list(vehicle.values), {}

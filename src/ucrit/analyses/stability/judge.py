@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -17,10 +17,11 @@ from ...core.compiled import Compiled, compiled, deciding, direction, state_spac
 from ...core.errors import UcritError
 from ...core.model import Model
 from ...numerics.matrices import eigenvalues_with_errors
-from ...numerics.rounded import judged, slacks
+from ...numerics.rounded import judged
 from ...numerics.routh import routh
 from ..linear.modes import growth
-from .grids import Grid, Tile, flat, tiles
+from .device import by_device
+from .grids import Grid, Tile, flat, limits, tiles
 
 Array = npt.NDArray[Any]
 
@@ -29,12 +30,6 @@ BLOCK = 2**16
 
 TILE = 2**22
 """Points that a compiled kernel handles together."""
-
-DEVICE_TILE = 2**26
-"""Points that a graphics processor handles together."""
-
-THREADS = 128
-"""Threads of a block on a graphics processor."""
 
 ONE_THREAD = 10**7
 """Points below which threads do not pay."""
@@ -83,13 +78,14 @@ def _chosen(grid: Grid, engine: str) -> str:
 
 def _everywhere(grid: Grid, engine: str, codes: Array) -> Array:
     """Write codes for the whole grid, tile by tile on all cores; return the flat indices of those that are open."""
+    if engine == "cuda":
+        return by_device(grid, codes)
     work: Callable[[Tile], Array] = {
         "numpy": lambda tile: _by_numpy(grid, tile, codes),
         "numba": lambda tile: _by_numba(grid, tile, codes),
-        "cuda": lambda tile: _by_cuda(grid, tile, codes),
     }[engine]
     tiles = tiles_of(grid, engine)
-    if codes.size < ONE_THREAD or engine == "cuda":
+    if codes.size < ONE_THREAD:
         found = [work(tile) for tile in tiles]
     else:
         with ThreadPoolExecutor(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else None) as pool:
@@ -99,7 +95,7 @@ def _everywhere(grid: Grid, engine: str, codes: Array) -> Array:
 
 def tiles_of(grid: Grid, engine: str) -> Iterator[Tile]:
     """Split a grid into the tiles of an engine."""
-    return tiles(grid, {"numpy": BLOCK, "numba": TILE, "cuda": DEVICE_TILE}[engine])
+    return tiles(grid, {"numpy": BLOCK, "numba": TILE}[engine])
 
 
 def _by_numpy(grid: Grid, tile: Tile, codes: Array) -> Array:
@@ -112,17 +108,6 @@ def _by_numpy(grid: Grid, tile: Tile, codes: Array) -> Array:
     sure, open_ = judged(a, *coefficient_bounds(functions, arguments, whole=True))
     codes[tile] = sure
     return flat(grid, tile, open_) if open_.any() else np.zeros(0, dtype=np.int64)
-
-
-def _limits(functions: Compiled, arguments: Sequence[Any]) -> Array:
-    """What the kernels compare with, for a whole tile.
-
-    Errors count twice: ordering by powers of the inner parameter, and Horner's rule, round at most as often again.
-    """
-    sizes, errors = coefficient_bounds(functions, arguments, whole=True)
-    with np.errstate(all="ignore"):
-        errors = [2 * x for x in errors]
-        return np.array([float(x) for x in (slacks(sizes, errors) if len(sizes) < 6 else errors)]) + 1e-300
 
 
 def _split(grid: Grid, tile: Tile) -> tuple[list[int], int, Array, Array, Array]:
@@ -146,30 +131,8 @@ def _by_numba(grid: Grid, tile: Tile, codes: Array) -> Array:
     kernel = kernels.processor_kernel(functions, tuple(outer), inner)
     fixed = np.array([np.ravel(x)[0] for x in arguments], dtype=float)
     whole = codes.reshape(-1, grid.shape[-1])
-    count = kernel(fixed, _limits(functions, arguments), rows, values, tile[-1].start, along, whole)
+    count = kernel(fixed, limits(functions, arguments), rows, values, tile[-1].start, along, whole)
     return flat(grid, tile, codes[tile] == kernels.OPEN) if count else np.zeros(0, dtype=np.int64)
-
-
-def _by_cuda(grid: Grid, tile: Tile, codes: Array) -> Array:
-    if (functions := grid.functions(tile)).order == functions.structural_zeros:
-        codes[tile] = 1
-        return np.zeros(0, dtype=np.int64)
-    codes[tile] = on_device(grid, tile).copy_to_host().reshape(codes[tile].shape)
-    return flat(grid, tile, codes[tile] == kernels.OPEN)
-
-
-def on_device(grid: Grid, tile: Tile) -> Any:
-    """Return the codes of a tile as an array of the graphics processor, shape (rows, points of a row)."""
-    cuda, functions, arguments = kernels.needed("cuda"), grid.functions(tile), grid.arguments(tile)
-    outer, inner, _, values, along = _split(grid, tile)
-    kernel = kernels.graphics_kernel(functions, tuple(outer), inner)
-    fixed = np.array([np.ravel(x)[0] for x in arguments], dtype=float)
-    rows, along = np.arange(len(values)), np.ascontiguousarray(along)
-    out = cuda.device_array((rows.size, along.size), dtype=np.uint8)
-    given = [cuda.to_device(x) for x in (fixed, _limits(functions, arguments), rows, values)]
-    blocks = min(rows.size, 2**14), min(-(-along.size // THREADS), 2**10)
-    kernel[blocks, THREADS](*given, 0, cuda.to_device(along), out)
-    return out
 
 
 def settle(vehicle: Model, columns: Mapping[str, Array]) -> Array:
