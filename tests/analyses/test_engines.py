@@ -260,27 +260,35 @@ def test_no_gpu_is_said():
             kernels.needed("cuda")
 
 
+SIMULATED = """
+import numpy as np
+from ucrit import find_model, load, stability_map
+from ucrit.analyses.stability import device
+from ucrit.core import kernels
+
+kernels.THREADS, device.PIECE = 4, 5
+caravan, truck = load("caravan"), load("coach-truck")
+marginal = find_model("trailer-rigid-tire-undamped")(m=1000, I_c=1500, a=1.5, b=1, k=1e4, U=20)
+U, c = np.array([-20.0, -1, -15, 0.7, 9, 14, 21, 28, 60]), np.geomspace(1, 1e4, 9)
+for device.POINTS, device.ROWS in ((2**28, 2**20), (20, 2), (4, 1)):
+    for vehicle, grid in (
+        (marginal, dict(b=[0.99, 1, 1.01])),
+        (caravan, dict(U=U, c=c)),
+        (caravan, dict(c=c, U=U)),
+        (caravan, dict(U=U)),
+        (caravan, dict(m=[900, 1500], c=[1.0, 4e3], U=U)),
+        (caravan, dict(k=[1e-200, 1e-3, 1e5, 1e200], C=[1e-150, 1e5, 1e150])),
+        (truck, dict(c_s=[0.0, 30, 300, 2e3, 2e4], V=[2.0, 9, 20, 35, 70])),
+    ):
+        one, two = (stability_map(vehicle, engine=e, **grid).stable for e in ("numpy", "cuda"))
+        assert (one == two).all() and one.any() and not one.all(), (vehicle, list(grid), device.POINTS)
+"""
+
+
 def test_the_kernel_for_gpus_in_numbas_simulator():
     """Several segments of both axes, both directions of running, and launches of few rows, columns and points."""
-    code = (
-        "import numpy as np; from ucrit import find_model, load, stability_map\n"
-        "from ucrit.analyses.stability import device; from ucrit.core import kernels\n"
-        "kernels.THREADS, device.PIECE = 4, 5\n"
-        "U, c = np.array([-20., -1, -15, 0.7, 9, 14, 21, 28, 60]), np.geomspace(1, 1e4, 9)\n"
-        "V, k = np.array([2., 9, 20, 35, 70]), np.array([0., 30, 300, 2e3, 2e4])\n"
-        "free = find_model('trailer-rigid-tire-undamped')(m=1000, I_c=1500, a=1.5, b=1, k=1e4, U=20)\n"
-        "for points, rows in ((2**28, 2**20), (20, 2), (4, 1)):\n"
-        "    device.POINTS, device.ROWS = points, rows\n"
-        "    for name, grid in (('marginal', dict(b=[.99, 1, 1.01])), ('caravan', dict(U=U, c=c)),\n"
-        "            ('caravan', dict(c=c, U=U)), ('caravan', dict(U=U)),\n"
-        "            ('caravan', dict(c=c, U=U)), ('caravan', dict(U=U)),\n"
-        "            ('caravan', dict(m=[900, 1500], c=[1., 4e3], U=U)), ('coach-truck', dict(c_s=k, V=V))):\n"
-        "        v = free if name == 'marginal' else load(name)\n"
-        "        one, two = (stability_map(v, engine=e, **grid).stable for e in ('numpy', 'cuda'))\n"
-        "        assert (one == two).all() and one.any() and not one.all(), (name, list(grid), points)\n"
-    )
     done = subprocess.run(
-        [sys.executable, "-c", code],
+        [sys.executable, "-c", SIMULATED],
         env={**os.environ, "NUMBA_ENABLE_CUDASIM": "1"},
         capture_output=True,
         text=True,

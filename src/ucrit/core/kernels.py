@@ -183,8 +183,8 @@ def needed(engine: str) -> Any:
     cuda = importlib.import_module("numba.cuda")
     if not cuda.is_available():
         raise UcritError(
-            "the engine 'cuda' needs an NVIDIA GPU with its driver and CUDA libraries (pip install 'numba-cuda[cu12]'), "
-            "and none is found; take engine='numba' or 'numpy'"
+            "the engine 'cuda' needs an NVIDIA GPU, its driver and CUDA libraries (pip install 'numba-cuda[cu12]'); "
+            "none is found: take engine='numba' or 'numpy'"
         )
     return cuda
 

@@ -61,26 +61,28 @@ class Layout:
     grid, runs
         The grid, and the segments of its axes.
     tables
-        Limits of shape (combinations of segments of the outer axes, segments of the inner one, limits), nan in tiles
-        that another direction takes; none where nothing decides.
+        Limits of shape (combinations of segments of the outer axes, segments of the inner one, limits), and which of
+        those tiles the direction takes; none where nothing decides.
     """
 
     grid: Grid
     runs: list[list[slice]]
-    tables: dict[Compiled, Array]
+    tables: dict[Compiled, tuple[Array, Array]]
 
     @classmethod
     def of(cls, grid: Grid) -> Layout:
         """Find segments and limits."""
         runs = [segments(x) for x in grid.axes.values()]
         *outer, last = (len(x) for x in runs)
-        tables: dict[Compiled, Array] = {}
+        tables: dict[Compiled, tuple[Array, Array]] = {}
+        shape = (prod(outer), last)
         for place, tile in enumerate(product(*runs)):
             functions = grid.functions(tile)
             if (degree := functions.order - functions.structural_zeros) == 0:
                 continue
-            table = tables.setdefault(functions, np.full((prod(outer), last, degree + 1), np.nan))
+            table, mine = tables.setdefault(functions, (np.ones((*shape, degree + 1)), np.zeros(shape, dtype=bool)))
             table[divmod(place, last)] = limits(functions, grid.arguments(tile))
+            mine[divmod(place, last)] = True
         return cls(grid, runs, tables)
 
     def launch(self, rows: slice, columns: slice) -> tuple[Any, Any]:
@@ -93,9 +95,9 @@ class Layout:
         along = cuda.to_device(np.ascontiguousarray(list(self.grid.axes.values())[-1][columns]))
         out = cuda.device_array((len(values), along.size), dtype=np.uint8)
         doubts = cuda.to_device(np.zeros(len(values), dtype=np.uint8))
-        for functions, table in self.tables.items():
-            mine = ~np.isnan(table).all(axis=-1)
-            here, there = np.flatnonzero(mine.any(axis=1)[kinds]), np.flatnonzero(mine.any(axis=0)[pieces[:, 2]])
+        for functions, (table, mine) in self.tables.items():
+            outside, inside = np.flatnonzero(mine.any(axis=1)), np.flatnonzero(mine.any(axis=0))
+            here, there = np.flatnonzero(np.isin(kinds, outside)), np.flatnonzero(np.isin(pieces[:, 2], inside))
             if here.size and there.size:
                 kernel = kernels.graphics_kernel(functions, tuple(outer), inner)
                 given = [cuda.to_device(x) for x in (fixed, table, here, kinds[here], values[here], pieces[there])]
