@@ -133,7 +133,7 @@ def stability_map(
     if points > MAX_POINTS:
         raise UcritError(
             f"{type(vehicle).model_id()}: a map of {points:,} points is too large; at most {MAX_POINTS:,} are held in "
-            "memory, 'stream' writes larger ones to disk"
+            "memory, a .zarr store takes more (in Python with 'stream')"
         )
     rates, damping = _margins(vehicle, coords) if margins else (None, None)
     return StabilityMap(mapped, coords, decide(vehicle, coords, engine), rates, damping)
