@@ -105,6 +105,18 @@ def test_exactly_marginal_points_are_not_stable(engine):
         assert at == (Fraction(float(x)) * Fraction(0.1) * Fraction(0.3) > Fraction(float(x) * 0.1 * 0.3))
 
 
+@pytest.mark.parametrize(("operations", "count"), [(judge.EXACT_OPERATIONS, 5_000), (1, 100_000)])
+def test_a_long_line_on_the_boundary_is_not_stable(operations, count, monkeypatch):
+    """However few of its points are settled exactly."""
+    monkeypatch.setattr(judge, "EXACT_OPERATIONS", operations)
+    free = find_model("trailer-rigid-tire-undamped")(m=1000, I_c=1500, a=1.5, b=1, k=1e4, U=20)
+    other = find_model("trailer-undamped-hitch")(m=1000, a=1.5, I_c=1500, U=25, C=5e4, b=1, k=1e4)
+    for vehicle in (free, other):
+        found = stability_map(vehicle, b=[1.0, 1.1], k=np.geomspace(1e3, 1e6, count)).stable
+        assert not found[0].any()
+        assert found[1].all()
+
+
 class Cascade(Model):
     """Three equal oscillators, each driving the next: triple eigenvalues with one eigenvector."""
 

@@ -62,6 +62,22 @@ def test_marginal_matrices_are_not_stable(engine):
     assert stable_matrices(np.zeros((0, 4, 4)), engine).shape == (0,)
 
 
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_coinciding_eigenvalues_do_not_decide(engine):
+    """Whole-numbered matrices whose eigenvalues coincide: rounding moves those by a hundredth and more."""
+    if engine == "numba":
+        pytest.importorskip("numba")
+    random = np.random.default_rng(5)
+    swing, link = np.array([[0, 1], [-1, 0]]), np.eye(2)
+    marginal = np.block([[swing, link, 0 * link], [0 * link, swing, link], [0 * link, 0 * link, swing]])
+    stable = -np.eye(6) + np.diag(np.ones(5), 1)
+    for core, expected in ((marginal, False), (stable, True)):
+        changes = [np.tril(random.integers(-2, 3, (6, 6)), -1) + np.eye(6) for _ in range(60)]
+        A = np.array([np.rint(T @ core @ np.linalg.inv(T)) for T in changes])
+        assert (stable_matrices(A, engine) == expected).all()
+    assert not stable_matrices(np.tile(marginal, (5000, 1, 1)), engine).any()
+
+
 def test_few_matrices_need_eigenvalues():
     A = np.random.default_rng(0).normal(size=(2000, 8, 8)) / np.sqrt(8) - 0.9 * np.eye(8)
     assert _judged(A)[1].mean() < 0.01

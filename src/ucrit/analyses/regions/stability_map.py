@@ -104,7 +104,8 @@ def stability_map(
     -------
     StabilityMap
         Verdicts are right for the numbers given: points where rounding might matter are decided by balanced
-        eigenvalues, and close to the boundary exactly (the first 2000 of them).
+        eigenvalues, and close to the boundary exactly. Of more than 2000 such points (100,000 of a simple model) some
+        that are stable by no more than rounding may be called not stable, never the other way round.
 
     Raises
     ------

@@ -18,7 +18,7 @@ from ...core.errors import UcritError
 from ...core.model import Model
 from ...numerics.matrices import eigenvalues_with_errors
 from ...numerics.rounded import judged
-from ...numerics.routh import routh
+from ...numerics.routh import all_decay
 from ..linear.modes import growth
 from .device import by_device
 from .grids import Grid, Tile, flat, limits, tiles
@@ -41,7 +41,10 @@ CLEAR = 1e-7
 """Real part, as a share of the largest eigenvalue, below which no eigenvalue decides."""
 
 EXACT_POINTS = 2000
-"""Points of one grid that are settled in exact arithmetic; further ones by the sign of the largest real part."""
+"""Points of one grid that are settled exactly at least; further ones are stable if an error bound proves it."""
+
+EXACT_OPERATIONS = 10**7
+"""Exact operations for the coefficients of one grid's points, where that makes more points: some seconds."""
 
 
 def decide(vehicle: Model, axes: Mapping[str, Array], engine: str) -> Array:
@@ -139,12 +142,13 @@ def settle(vehicle: Model, columns: Mapping[str, Array]) -> Array:
     """Tell of single points, one value of each column, whether the vehicle is stable; shape (points,).
 
     Points at which rounding cannot matter are judged by the polynomial, the others by balanced eigenvalues where
-    those keep clear of the imaginary axis, and the rest exactly for the numbers given.
+    those keep clear of the imaginary axis, and the rest exactly for the numbers given. Of very many that are left the
+    nearest to the axis are; further ones are called stable if the error bound of their eigenvalues proves it.
     """
     stable = np.zeros(len(next(iter(columns.values()))), dtype=bool)
     speed = type(vehicle).declaration.speed
     signs = np.sign(columns[speed]) if speed is not None and speed in columns else np.ones(stable.size)
-    left = EXACT_POINTS
+    left = max(EXACT_POINTS, EXACT_OPERATIONS // _operations(vehicle))
     for sign in np.unique(signs):
         part = np.flatnonzero(signs == sign)
         for start in range(0, part.size, BLOCK):
@@ -183,6 +187,12 @@ def judged_points(vehicle: Model, columns: Mapping[str, Array]) -> Judged:
     return Judged(sure, open_, np.abs(a[-1]) > errors[-1], np.array(a))
 
 
+def _operations(vehicle: Model) -> int:
+    """How many operations the coefficients take."""
+    text = compiled(type(vehicle), direction(vehicle)).source
+    return max(1, sum(map(text.count, "+-*/")))
+
+
 def _settled(vehicle: Model, columns: Mapping[str, Array], exact: int) -> tuple[Array, int]:
     """Verdicts of a block of points, and how many of them took exact arithmetic."""
     known = judged_points(vehicle, columns)
@@ -190,10 +200,10 @@ def _settled(vehicle: Model, columns: Mapping[str, Array], exact: int) -> tuple[
     if not rest.size:
         return stable, 0
     columns = {name: x[rest] for name, x in columns.items()}
-    rates, clear = _rates(vehicle.along("point", **columns))
-    clear &= known.signed[rest]  # else a root next to infinity has an eigenvalue of either sign
-    stable[rest] = rates < 0
-    near = np.flatnonzero(~clear)
+    rates, errors = _rates(vehicle.along("point", **columns))
+    errors[~known.signed[rest]] = np.inf  # a root next to infinity has an eigenvalue of either sign
+    stable[rest] = rates < -errors
+    near = np.flatnonzero(~(np.abs(rates) > np.maximum(CLEAR, errors)))
     near = near[np.argsort(np.abs(rates[near]), kind="stable")][:exact]
     functions = compiled(type(vehicle), direction(vehicle.along("point", **columns)))
     for k in near:
@@ -202,25 +212,25 @@ def _settled(vehicle: Model, columns: Mapping[str, Array], exact: int) -> tuple[
 
 
 def _rates(many: Model) -> tuple[Array, Array]:
-    """Largest real part as a share of the largest modulus, nan if the equations are singular; and where it is clear."""
+    """Largest real part and a bound of its error, as shares of the largest modulus; nan for singular equations."""
     rates = np.full(next(iter(many.dims.values())).size, np.nan)
-    clear = np.zeros(rates.size, dtype=bool)
+    bounds = np.full(rates.size, np.inf)
     try:
         A = state_space(many).A
     except UcritError:
-        return rates, clear
+        return rates, bounds
     A = np.broadcast_to(A, (rates.size, *A.shape[-2:]))
     finite = np.isfinite(A).all(axis=(-2, -1))
     if not finite.any():
-        return rates, clear
+        return rates, bounds
     values, errors = eigenvalues_with_errors(A[finite])
     size = np.abs(values).max(axis=-1)
     size[size == 0] = 1
     rates[finite] = growth(many, values) / size
-    clear[finite] = np.abs(rates[finite]) > np.maximum(CLEAR, errors / size)
+    bounds[finite] = errors / size
     if compiled(type(many), direction(many)).undamped:
-        clear &= rates > 0  # no motion can decay: only growth is clear
-    return rates, clear
+        bounds[~(rates > 0)] = np.inf  # no motion can decay: only growth is clear
+    return rates, bounds
 
 
 def _exactly(functions: Compiled, values: Mapping[str, Any]) -> bool:
@@ -229,7 +239,4 @@ def _exactly(functions: Compiled, values: Mapping[str, Any]) -> bool:
         a = deciding(functions, functions.exact_coefficients(numbers))
     except ZeroDivisionError:
         return False
-    if not a[-1]:
-        return False
-    array = routh(a)
-    return array.right_half_plane == 0 == array.imaginary_axis
+    return bool(a[-1]) and all_decay(a)
