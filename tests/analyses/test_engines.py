@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ucrit import Model, UcritError, coordinate, find_model, load, param, stability_map
+from ucrit import Model, UcritError, coordinate, find_model, load, param, stability_map, sweep
 from ucrit.analyses.linear.modes import eigenvalues, growth
 from ucrit.analyses.stability import judge
 from ucrit.analyses.stability.judge import settle
@@ -115,6 +115,8 @@ def test_a_long_line_on_the_boundary_is_not_stable(operations, count, monkeypatc
         found = stability_map(vehicle, b=[1.0, 1.1], k=np.geomspace(1e3, 1e6, count)).stable
         assert not found[0].any()
         assert found[1].all()
+    line = sweep(free, k=np.geomspace(1e3, 1e6, 2_000))
+    assert not line.stable.any()
 
 
 class Cascade(Model):
@@ -245,8 +247,6 @@ def test_threads_change_nothing(monkeypatch):
 
 
 def test_margins_are_those_of_a_sweep():
-    from ucrit import sweep
-
     grid = {"c": [0, 2000, 4000], "U": [15, 30]}
     result, expected = stability_map(load("caravan"), margins=True, **grid), sweep(load("caravan"), **grid)
     np.testing.assert_allclose(result.growth, expected.growth, rtol=1e-9)
