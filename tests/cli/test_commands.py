@@ -135,6 +135,7 @@ def test_set_and_upto_reach_the_analysis(run: Run) -> None:
         (["map", "caravan", "c=0:1", "U=3:4", "--engine", "nunba"], "did you mean 'numba'?"),
         (["map", "caravan", "c=0:1", "U=3:4", "m=5:6", "-o", "x.svg"], "drawn over two parameters, got c, U, m"),
         (["map", "caravan", "c=0:1", "U=3:4", "-o", "x.xls"], "must end in .csv"),
+        (["map", "caravan", "c=0:1:2400", "U=3:4:2400", "-o", "x.csv"], "a map of 5,760,000 points is too large for"),
         (["map", "caravan", "c=0:1", "U=3:4", "--margins", "-o", "x.zarr"], "has verdicts only"),
         (["boundary", "caravan"], "missing argument"),
         (["boundary", "caravan", "mm=1:2", "U=3:4"], "there is no parameter 'mm'; did you mean 'm'?"),

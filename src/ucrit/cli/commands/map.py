@@ -10,6 +10,10 @@ from ..output import PICTURES, save, writer
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 from .sweep import EXAMPLE, ZARR, refuse_both, stream_to
 
+TEXTS = (".csv", ".json")
+MAX_ROWS = 5_000_000
+"""Points that a file of text may hold: some gigabytes of memory while it is written."""
+
 
 @click.command("map", short_help="Where in a plane of parameters a vehicle is stable, as a picture.")
 @click.argument("vehicle", type=Name("vehicle", suffix=".toml"))
@@ -75,6 +79,11 @@ def command(
     if output is not None and output.lower().endswith(PICTURES) and len(read) != 2:
         raise UcritError(f"a map is drawn over two parameters, got {', '.join(read)}; other files may have more")
     result = stability_map(subject, engine=engine, margins=margins, **read)
+    if output is not None and output.lower().endswith(TEXTS) and result.stable.size > MAX_ROWS:
+        raise UcritError(
+            f"a map of {result.stable.size:,} points is too large for '{output}', at most {MAX_ROWS:,} as text; "
+            "take .nc, .mat or .zarr"
+        )
     if write is not None:
         write(result)
     from ..render_map import show_map
