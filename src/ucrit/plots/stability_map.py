@@ -45,13 +45,13 @@ def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any 
     Raises
     ------
     UcritError
-        If the map does not have two dimensions, both of them parameters.
+        If the map does not have two dimensions, both of them parameters, or one of them has a single value.
     """
     names = tuple(result.coords)
     declared = type(result.vehicle).declaration.parameters
     if len(names) != 2 or any(name not in declared for name in names):
         raise UcritError(f"a map is drawn over two parameters, this one spans {', '.join(names) or 'none'}")
-    taken = [_some(result.coords[name]) for name in names]
+    taken = [_some(name, np.asarray(result.coords[name])) for name in names]
     x, y = (np.asarray(result.coords[name], dtype=float)[i] for name, i in zip(names, taken, strict=True))
     stable = np.asarray(result.stable, dtype=bool)[np.ix_(*taken)].T
     point = None if vehicle is None else _point(vehicle, names, (x, y))
@@ -77,9 +77,12 @@ def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any 
     return fig
 
 
-def _some(values: Array) -> Array:
-    """Positions of the values that are drawn, the first and the last among them."""
-    return np.unique(np.linspace(0, len(values) - 1, min(len(values), MOST)).round().astype(int))
+def _some(name: str, values: Array) -> Array:
+    """Positions of the values that are drawn, rising, the least and the greatest among them."""
+    rising = np.unique(values, return_index=True)[1]
+    if rising.size < 2:
+        raise UcritError(f"a map is drawn over ranges, but {name} is {float(values[0]):g} all over it")
+    return np.asarray(rising[np.linspace(0, rising.size - 1, min(rising.size, MOST)).round().astype(int)])
 
 
 def fill(axes: Any, grid: tuple[Array, Array], stable: Array, point: Point | None) -> None:
