@@ -35,7 +35,7 @@ def main() -> int:
     print(f"ucrit benchmarks, {load()}")
     rows: list[Row] = []
     measures = [PARTS[part] for part in asked or PARTS]
-    for measure in (*measures, *([device.measured, device.bounded] if "--device" in sys.argv[1:] else [])):
+    for measure in (*measures, *([device.measured, device.counted] if "--device" in sys.argv[1:] else [])):
         found = measure()
         rows += found
         for row in found:
