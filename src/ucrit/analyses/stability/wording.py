@@ -24,7 +24,8 @@ def speed_text(speed: float) -> str:
     >>> speed_text(23.41)
     '23.41 m/s (84.3 km/h)'
     """
-    return f"{speed:.4g} m/s ({speed * 3.6:.3g} km/h)"
+    on_the_road = speed * 3.6
+    return f"{speed:.4g} m/s ({on_the_road:{'.0f' if 1000 <= abs(on_the_road) < 1e6 else '.3g'}} km/h)"
 
 
 def _two_digits(value: float) -> str:
