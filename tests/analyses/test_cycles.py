@@ -258,3 +258,12 @@ def test_the_diagram():
 def test_what_makes_no_sense_is_refused(wrong, message):
     with pytest.raises(UcritError, match=message):
         wrong()
+
+
+def test_linear_equations_are_refused_before_anything_is_followed():
+    with pytest.raises(UcritError, match="bicycle: the equations are linear, so that there are no limit cycles"):
+        limit_cycles(load("benchmark-bicycle"))
+
+
+def test_equations_without_any_comparison_have_limit_cycles():
+    assert limit_cycles(load("coach-truck-rigid"), lower=44).branches[0].kind == "subcritical"

@@ -136,3 +136,8 @@ def test_families_are_drawn_with_their_changes(spinning):
     np.testing.assert_allclose(points["change"][0], [change.value, change.values["delta_f"]])
     assert axes.get_xlabel() == "lateral acceleration of the centre of mass $a_{y}$ [m/s²]"
     assert plots.plot(spinning).get_axes()
+
+
+def test_a_gradient_that_is_rounding_is_told_as_none():
+    assert "    understeer gradient at first 0 rad/(m/s^2) = 0 deg/g" in sentences(handling_diagram(load("bmw-320i")))
+    assert "0.003333 rad/(m/s^2) = 1.873 deg/g" in "\n".join(sentences(handling_diagram(load("spinning-car"))))
