@@ -311,3 +311,12 @@ def test_friction_on_the_basic_motion_itself_is_refused():
     values = load("caster-on-brush-tire").values
     with pytest.raises(UcritError, match="a law jumps on the basic motion itself"):
         limit_cycles(CasterWithDryFriction(**values, M_0=3))
+
+
+def test_linear_equations_are_refused_before_anything_is_followed():
+    with pytest.raises(UcritError, match="bicycle: the equations are linear, so that there are no limit cycles"):
+        limit_cycles(load("benchmark-bicycle"))
+
+
+def test_equations_without_any_comparison_have_limit_cycles():
+    assert limit_cycles(load("coach-truck-rigid"), lower=44).branches[0].kind == "subcritical"

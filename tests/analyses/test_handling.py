@@ -192,3 +192,8 @@ def test_the_drive_keeps_the_speed_that_rises():
 def test_tests_that_make_no_sense_are_refused(name, asked, message):
     with pytest.raises(UcritError, match=message):
         handling_diagram(load(name), **asked)
+
+
+def test_a_gradient_that_is_rounding_is_told_as_none():
+    assert "    understeer gradient at first 0 rad/(m/s^2) = 0 deg/g" in sentences(handling_diagram(load("bmw-320i")))
+    assert "0.003333 rad/(m/s^2) = 1.873 deg/g" in "\n".join(sentences(handling_diagram(load("spinning-car"))))

@@ -20,6 +20,7 @@ COMMANDS = {
     "new": "new",
     "simulate": "simulate",
     "sweep": "sweep",
+    "map": "map",
     "cycles": "cycles",
     "handling": "handling",
     "boundary": "boundary",

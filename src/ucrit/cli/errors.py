@@ -30,6 +30,8 @@ def exit_status(run: Callable[[], Any]) -> int:
         return INTERRUPTED
     except BrokenPipeError:
         return _quiet_end()
+    except MemoryError:
+        return tell("this takes more memory than there is; take fewer points, or write them to a .zarr store")
     except Exception as error:
         sentence = _sentence(error)
         if sentence is None:

@@ -25,6 +25,8 @@ def show_uncertainty(console: Console, found: Uncertainty) -> None:
     page.line()
     sentence = found.sentence
     page.paragraph(sentence[:1].upper() + sentence[1:] + ".", "bold")
+    if not found.varies and found.as_given == found.critical[0]:
+        return
     page.heading(f"Stability is first lost below ({found.samples} vehicles drawn)")
     rows = [(f"{number(100 * share)} %", _speed(found.quantile(share))) for share in SHARES]
     page.table([*rows, ("as given", _speed(found.as_given))], right=(0,))

@@ -109,7 +109,7 @@ def field_of(vehicle: Model, parameter: str) -> Field:
 
     def switches(x: Array, value: float) -> Array:
         given, u = changed(value)
-        return made.switches(x, np.broadcast_to(u[:, None], (len(u), x.shape[1])), given)
+        return made.switches(x, np.broadcast_to(u[:, None], (len(u), x.shape[1])), given).reshape(-1, x.shape[1])
 
     return Field(rates, slopes, switches)
 
@@ -148,7 +148,8 @@ def limit_cycles(
     Raises
     ------
     UcritError
-        If a name or range is wrong, a position is free, or no limit cycle is found beside a critical value.
+        If a name or range is wrong, a position is free, the equations are linear, or no limit cycle is found beside a
+        critical value.
 
     Examples
     --------
@@ -171,6 +172,8 @@ def limit_cycles(
     flutter = [c for c in flutter if low < c.value < high]
     found: list[CycleBranch] = []
     moving = field_of(vehicle, name)
+    if flutter and _linear(vehicle, moving, name):
+        raise UcritError(f"{type(vehicle).model_id()}: the equations are linear, so that there are no limit cycles")
     for number, event in enumerate(flutter):
         if any(_ends_at(branch, event.value) for branch in found):
             continue
@@ -191,6 +194,17 @@ def limit_cycles(
     if progress is not None:
         progress(1, 1)
     return LimitCycles(vehicle, name, declared.unit, low, high, values, tuple(found))
+
+
+def _linear(vehicle: Model, moving: Field, name: str) -> bool:
+    """Whether the slopes are the same wherever the vehicle is, near the basic motion and far away."""
+    rest, _ = motion(type(vehicle)).basic(vehicle.arguments())
+    ways = np.random.default_rng(0).normal(size=(len(rest), 4)) * [0, 1e-2, 0.1, 1]
+    value = float(vehicle.values[name])
+    if moving.switches is not None and len(moving.switches(rest[:, None] + ways, value)):
+        return False
+    A, _ = moving.slopes(rest[:, None] + ways, value)
+    return bool(np.abs(A - A[:1]).max() <= 1e-9 * np.abs(A[0]).max())
 
 
 def _span(

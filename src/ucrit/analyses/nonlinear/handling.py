@@ -203,7 +203,20 @@ def handling_diagram(
     return _diagram(vehicle, turns, turns.follow(vehicle, within, step, fastest))
 
 
+def has_handling(vehicle: Model, steer: str = "delta_f") -> bool:
+    """Whether a vehicle's model has what a handling diagram needs."""
+    return not _lacking(vehicle, steer)
+
+
 def _refuse_unfit(vehicle: Model, steer: str) -> None:
+    missing = _lacking(vehicle, steer)
+    if missing:
+        *some, last = missing
+        needs = f"{', '.join(some)} and {last}" if some else last
+        raise UcritError(f"{type(vehicle).model_id()}: a handling diagram needs {needs}, which the model does not have")
+
+
+def _lacking(vehicle: Model, steer: str) -> list[str]:
     declared = type(vehicle).declaration
     outputs, inputs, states = declared.outputs, declared.inputs, declared.variables
     needed = [
@@ -215,11 +228,7 @@ def _refuse_unfit(vehicle: Model, steer: str) -> None:
         ("curvature" not in outputs and "r" not in states, "an output curvature [1/m] or a yaw rate r [rad/s]"),
         (inputs.get(steer) is None or inputs[steer].unit != "rad", f"a steer angle {steer} [rad]"),
     ]
-    missing = [text for lacks, text in needed if lacks]
-    if missing:
-        *some, last = missing
-        needs = f"{', '.join(some)} and {last}" if some else last
-        raise UcritError(f"{type(vehicle).model_id()}: a handling diagram needs {needs}, which the model does not have")
+    return [text for lacks, text in needed if lacks]
 
 
 def _diagram(vehicle: Model, turns: Turns, family: SteadyFamily) -> Handling:

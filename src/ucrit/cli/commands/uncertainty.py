@@ -61,9 +61,9 @@ def command(
     subject = load_vehicle(vehicle, assignments(changes, 'a=1.9 or "m=2 t"'))
     with progress("vehicles") as advance:
         found = uncertainty(subject, samples=samples, seed=seed, upto=upto, indices=indices, progress=advance)
-    if write is not None:
-        write(found)
     from ..render_sure import show_uncertainty
     from ..terminal import terminal
 
     show_uncertainty(terminal(), found)
+    if write is not None:
+        write(found)
