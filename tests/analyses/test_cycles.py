@@ -319,4 +319,4 @@ def test_linear_equations_are_refused_before_anything_is_followed():
 
 
 def test_equations_without_any_comparison_have_limit_cycles():
-    assert limit_cycles(load("coach-truck-rigid"), lower=44).branches[0].kind == "subcritical"
+    assert limit_cycles(load("coach-truck-rigid"), lower=44).branches[0].kind == "supercritical"
