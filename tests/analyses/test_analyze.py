@@ -118,7 +118,7 @@ def test_rigid_positions_are_harmless_and_said_so():
     car = load("oversteering-car-on-the-road").with_(U=20)
     found = verdict(car)
     assert (found.rigid_positions, found.marginal, found.stable) == (2, 0, True)
-    assert "2 zero roots are positions that no force restores, which is harmless" in str(found)
+    assert "2 zero roots are positions or speeds that no force restores, which is harmless" in str(found)
     assert [mode.eigenvalue for mode in modes(car)].count(0) == 2
 
 
@@ -148,3 +148,10 @@ def test_participation_does_not_depend_on_units():
     values, vectors = np.linalg.eig(scale @ A @ np.linalg.inv(scale))
     order = [int(np.argmin(abs(values - v))) for v in modes(load("caravan")).eigenvalues]
     assert first == pytest.approx(_participation(vectors)[:, order], rel=1e-9)
+
+
+def test_a_zero_root_is_called_by_what_stays():
+    said = analyze(load("four-wheel-car")).sentence
+    assert said.endswith("(a zero root: forward speed, which nothing restores, harmless)")
+    names = [mode.name for mode in modes(load("large-airplane-body"))]
+    assert names == ["forward speed", "sideslip speed", "heave speed", "roll rate", "pitch rate", "yaw rate"]

@@ -21,6 +21,7 @@ COMMANDS = {
     "new": "new",
     "simulate": "simulate",
     "sweep": "sweep",
+    "map": "map",
     "cycles": "cycles",
     "handling": "handling",
     "boundary": "boundary",

@@ -34,6 +34,8 @@ def exit_status(run: Callable[[], Any]) -> int:
         _quiet_end()
         what = f"'{error.filename}': " if error.filename else ""
         return tell(f"the result cannot be written or read: {what}{error.strerror or error}")
+    except MemoryError:
+        return tell("this takes more memory than there is; take fewer points, or write them to a .zarr store")
     except Exception as error:
         sentence = _sentence(error)
         if sentence is None:

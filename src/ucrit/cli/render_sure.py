@@ -25,7 +25,7 @@ def show_uncertainty(console: Console, found: Uncertainty) -> None:
     page.line()
     sentence = found.sentence
     page.paragraph(sentence[:1].upper() + sentence[1:] + ".", "bold")
-    if found.quantile(0.0) == math.inf:  # in no case, up to the speed asked for
+    if found.quantile(0.0) == math.inf or (not found.varies and found.as_given == found.critical[0]):
         return
     page.heading(f"Stability is first lost below ({found.samples} vehicles drawn)")
     rows = [(f"{number(100 * share)} %", _speed(found.quantile(share))) for share in SHARES]

@@ -135,7 +135,7 @@ def _conditions(described: ModelDescription) -> Step:
         "are dropped"
     )
     if found.zeros:
-        text += f"; {_count(found.zeros)} zero whatever the parameters, a free position, and divided out first"
+        text += f"; {_count(found.zeros)} zero whatever the parameters, a free position or speed, and divided out first"
     if found.settled is not None:
         return Step(f"{text}. Nothing is left that depends on the parameters.", "Conditions", ())
     return Step(f"{text}. What is left stands above under Criteria.", "Conditions", ())

@@ -20,6 +20,10 @@ from ..results.convert import Series, Table, Tabular, complex_series, unit_of
 Array = npt.NDArray[Any]
 
 
+STAYING = {"m": "position", "rad": "position", "m/s": "speed", "rad/s": "rate"}
+"""What stays where a root is zero, by the unit of the variable that takes part most."""
+
+
 @dataclass(frozen=True)
 class Mode(Record):
     """One real mode or one pair of conjugate modes of a vehicle.
@@ -105,6 +109,8 @@ class Modes(Tabular):
             raise UcritError("modes of a vehicle with array parameters are arrays: use .eigenvalues and .participation")
         kept = [k for k, value in enumerate(self.eigenvalues) if value.imag >= 0]
         named = [f"{motion} {self._going(k)}" for motion, k in zip(self._motions(kept), kept, strict=True)]
+        called = getattr(type(self.vehicle), "called", {})
+        named = [called.get(name, name) for name in named]
         names = _distinct(list(zip(named, self.eigenvalues[kept], strict=True)))
         return [
             Mode(
@@ -152,7 +158,8 @@ class Modes(Tabular):
 
         It is that of the variable that takes part most. A model whose variables name as many motions as it has modes
         may say ``one_mode_each = True``: each motion then names the one mode in which it has its share, such that
-        all shares together are largest.
+        all shares together are largest. Where the field has names of its own, ``called`` gives them by the names
+        that follow: ``{"steer oscillation": "weave oscillation"}``.
         """
         rows: dict[str, list[int]] = {}
         motions = [self._motion(label.rstrip("'")) for label in self.labels]
@@ -179,7 +186,8 @@ class Modes(Tabular):
     def _going(self, k: int) -> str:
         value = complex(self.eigenvalues[k])
         if value == 0:
-            return "position"
+            variable = type(self.vehicle).declaration.variables.get(self._most(k))
+            return STAYING.get(variable.unit, "value") if variable else "value"
         return "oscillation" if value.imag else "decay" if value.real < 0 else "divergence"
 
     @property

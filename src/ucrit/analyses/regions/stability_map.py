@@ -104,7 +104,8 @@ def stability_map(
     -------
     StabilityMap
         Verdicts are right for the numbers given: points where rounding might matter are decided by balanced
-        eigenvalues, and close to the boundary exactly (the first 2000 of them).
+        eigenvalues, and close to the boundary exactly. Of more than 2000 such points (100,000 of a simple model) some
+        that are stable by no more than rounding may be called not stable, never the other way round.
 
     Raises
     ------
@@ -133,7 +134,7 @@ def stability_map(
     if points > MAX_POINTS:
         raise UcritError(
             f"{type(vehicle).model_id()}: a map of {points:,} points is too large; at most {MAX_POINTS:,} are held in "
-            "memory, 'stream' writes larger ones to disk"
+            "memory, a .zarr store takes more (in Python with 'stream')"
         )
     rates, damping = _margins(vehicle, coords) if margins else (None, None)
     return StabilityMap(mapped, coords, decide(vehicle, coords, engine), rates, damping)

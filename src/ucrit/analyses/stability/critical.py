@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -28,6 +28,9 @@ from .scan import scan
 
 NEAR = 1e-9
 """Share of a critical value by which a root through infinity is looked at beside it."""
+LIGHT = 299_792_458.0
+"""Speed of light [m/s]."""
+Edge = tuple[float, set[str]]
 
 
 @dataclass(frozen=True)
@@ -175,12 +178,21 @@ def critical(
     if found is None:
         found = scan(vehicle, name, lo, hi)
     edges, stable = found
+    if type(vehicle).declaration.parameters[name].is_speed:
+        edges, stable = _slower_than_light(edges, stable)
     values = tuple(
         _describe(vehicle, name, value, kinds, "below" if before else "above")
         for (value, kinds), before, after in zip(edges, stable, stable[1:], strict=False)
         if before != after
     )
     return CriticalValues(vehicle, name, lo, hi, values, stable[0], exact)
+
+
+def _slower_than_light(edges: Sequence[Edge], stable: Sequence[bool]) -> tuple[Sequence[Edge], Sequence[bool]]:
+    """Leave out speeds that no vehicle has: they come from terms that cancel but for the rounding of given numbers."""
+    kept = [i for i, (value, _) in enumerate(edges) if abs(value) < LIGHT]
+    first = kept[0] if kept else len(edges) if edges and edges[0][0] < 0 else 0
+    return [edges[i] for i in kept], stable[first : first + len(kept) + 1]
 
 
 def parameter_name(vehicle: Model, parameter: str | None) -> str:

@@ -60,7 +60,9 @@ class Verdict(Record):
             text = "asymptotically stable: every disturbance dies out"
         if self.rigid_positions:
             count = self.rigid_positions
-            zeros = "one zero root is a position" if count == 1 else f"{count} zero roots are positions"
+            zeros = (
+                "one zero root is a position or speed" if count == 1 else f"{count} zero roots are positions or speeds"
+            )
             text += f"; {zeros} that no force restores, which is harmless"
         return text
 

@@ -11,6 +11,7 @@ from ..parameters import Name, assignments, complete_parameters, load_vehicle
 from ..progress import progress
 
 ZARR = ".zarr"
+EXAMPLE = '"U=20:130:12 km/h"'
 
 
 @click.command("sweep", short_help="Stability over ranges of parameters, as a table.")
@@ -51,15 +52,15 @@ def command(
     """
     from ...analyses.regions.sweep import sweep
 
+    read, changed = assignments(ranges, EXAMPLE), assignments(changes, "a=1.9")
+    refuse_both(read, changed)
     if out is not None and out.endswith(ZARR):
-        _stream(vehicle, ranges, changes, out, scheduler)
+        stream_to(vehicle, read, changed, out, "sweep", scheduler)
         return
     if scheduler is not None:
         raise click.UsageError("--scheduler needs a store that workers can write to: give -o FILE.zarr too")
     write = to_stdout if out is None else writer(out, pictures=(), more={ZARR: to_stdout})
-    subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
-    read = assignments(ranges, '"U=20:130:12 km/h"')
-    refuse_both(read, assignments(changes, "a=1.9"))
+    subject = load_vehicle(vehicle, changed)
     with progress("sweep") as advance:
         result = sweep(subject, progress=advance, **read)
     write(result)
@@ -67,15 +68,15 @@ def command(
         written(out)
 
 
-def _stream(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], store: str, scheduler: str | None) -> None:
-    """Write a sweep to a Zarr store, piece by piece."""
+def stream_to(
+    vehicle: str, ranges: dict[str, Any], changes: dict[str, Any], store: str, kind: str, scheduler: str | None
+) -> None:
+    """Write a sweep or a map to a Zarr store, piece by piece."""
     from ...analyses.regions.stream import stream
 
-    read = assignments(ranges, '"U=20:130:12 km/h"')
-    refuse_both(read, assignments(changes, "a=1.9"))
-    subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
-    with progress("sweep") as advance:
-        stream(subject, store, kind="sweep", client=scheduler, progress=advance, **read)
+    subject = load_vehicle(vehicle, changes)
+    with progress(kind) as advance:
+        stream(subject, store, kind=kind, client=scheduler, progress=advance, **ranges)
     written(store)
 
 

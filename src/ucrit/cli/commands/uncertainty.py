@@ -64,9 +64,8 @@ def command(
     from ..render_sure import show_uncertainty
     from ..terminal import terminal
 
+    show_uncertainty(terminal(), found)
     if write is not None:
         write(found)
-    show_uncertainty(terminal(), found)
-    if out is not None:
         print()
-        written(out)
+        written(str(out))
