@@ -54,6 +54,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.regions.boundary import boundary as boundary
     from .analyses.regions.certify import certify as certify
     from .analyses.regions.lazy import lazy as lazy
+    from .analyses.regions.stability_map import stability_map as map  # noqa: F401
     from .analyses.regions.stability_map import stability_map as stability_map
     from .analyses.regions.stream import stream as stream
     from .analyses.regions.sweep import sweep as sweep
@@ -179,6 +180,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "power_flow": "analyses.motion.power_flow",
     "show": "analyses.about.show",
     "list": ("analyses.about.listing", "listing"),
+    "map": ("analyses.regions.stability_map", "stability_map"),
     "new": ("analyses.about.listing", "template"),
     "check": ("checks", "check_model"),
     "check_model": "checks",

@@ -282,7 +282,7 @@ def test_map_tells_a_share_and_writes_every_format(run: Run, tmp_path: Path) -> 
     assert len(rows) == 1 + 63
     assert 0 < stable < 63
     assert f"{100 * stable / 63:.1f} % of 63 points are stable." in told.stdout
-    assert told.stdout.splitlines()[-1].split()[:3] == ["least", "0", "50"]
+    assert told.stdout.splitlines()[-2].split()[:3] == ["least", "0", "50"]
     svg = (tmp_path / "out.svg").read_text()
     assert 'id="design"' in svg
     assert run(*ask, "-o", tmp_path / "map.zarr").exit_code == 0

@@ -43,7 +43,7 @@ class Bicycle(Model):
     phi = coordinate("rad", "roll angle of the rear frame", motion="roll")
     delta = coordinate("rad", "steer angle of the handlebar", motion="steer")
 
-    called = MappingProxyType(
+    mode_names = MappingProxyType(
         {
             "roll oscillation": "weave oscillation",
             "steer oscillation": "weave oscillation",

@@ -109,8 +109,8 @@ class Modes(Tabular):
             raise UcritError("modes of a vehicle with array parameters are arrays: use .eigenvalues and .participation")
         kept = [k for k, value in enumerate(self.eigenvalues) if value.imag >= 0]
         named = [f"{motion} {self._going(k)}" for motion, k in zip(self._motions(kept), kept, strict=True)]
-        called = getattr(type(self.vehicle), "called", {})
-        named = [called.get(name, name) for name in named]
+        own = getattr(type(self.vehicle), "mode_names", {})
+        named = [own.get(name, name) for name in named]
         names = _distinct(list(zip(named, self.eigenvalues[kept], strict=True)))
         return [
             Mode(
@@ -158,7 +158,7 @@ class Modes(Tabular):
 
         It is that of the variable that takes part most. A model whose variables name as many motions as it has modes
         may say ``one_mode_each = True``: each motion then names the one mode in which it has its share, such that
-        all shares together are largest. Where the field has names of its own, ``called`` gives them by the names
+        all shares together are largest. Where the field has names of its own, ``mode_names`` gives them by the names
         that follow: ``{"steer oscillation": "weave oscillation"}``.
         """
         rows: dict[str, list[int]] = {}

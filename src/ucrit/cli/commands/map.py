@@ -43,7 +43,8 @@ def command(
     """Judge VEHICLE for every combination of two parameters' values, or of more, and tell what share is stable.
 
     \b
-    A range is LO:HI (100 values), LO:HI:COUNT, LO:HI:COUNT:log or values separated by commas:
+    A range is LO:HI (100 values), LO:HI:COUNT, LO:HI:COUNT:log or values
+    separated by commas:
       "U=20:130:400 km/h"   400 speeds
       k=1e3:1e6:400:log     400 stiffnesses, one ratio between neighbours
 
