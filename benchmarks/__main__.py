@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import sys
 
-from benchmarks import bicycle, explorer, kernels, maps, startup
+from benchmarks import bicycle, device, explorer, kernels, maps, startup
 from benchmarks.timing import Row, load
 
 PARTS = {
@@ -35,7 +35,7 @@ def main() -> int:
     print(f"ucrit benchmarks, {load()}")
     rows: list[Row] = []
     measures = [PARTS[part] for part in asked or PARTS]
-    for measure in (*measures, *([maps.device] if "--device" in sys.argv[1:] else [])):
+    for measure in (*measures, *([device.measured, device.counted] if "--device" in sys.argv[1:] else [])):
         found = measure()
         rows += found
         for row in found:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable
 from importlib.util import find_spec
 from typing import Any
@@ -10,11 +9,8 @@ from typing import Any
 import numpy as np
 
 from benchmarks.timing import Row, compared, interleaved
-from ucrit import UcritError, boundary, find_model, stability_map, stable_matrices
-from ucrit.analyses.stability.grids import Grid
-from ucrit.analyses.stability.judge import on_device, tiles_of
+from ucrit import boundary, find_model, stability_map, stable_matrices
 from ucrit.core.compiled import state_space
-from ucrit.core.kernels import needed
 
 SIDE = 10_000
 ORDER = 8
@@ -92,35 +88,6 @@ def large() -> list[Row]:
             told,
         ),
         Row(f"  points in a second of CPU time: {points / median['numba']:.2g}"),
-    ]
-
-
-def device() -> list[Row]:
-    """Measure the map on a GPU, by the clock: what stays there, and copied back."""
-    title = Row("\nGPU, by the clock")
-    try:
-        cuda = needed("cuda")
-    except UcritError as error:
-        return [title, Row(f"  not measured: {error}")]
-    subject = trailer()
-    axes = {"b": np.linspace(0, 2, SIDE), "k": np.geomspace(1e3, 1e6, SIDE)}
-    grid = Grid(subject, axes)
-    tiles = list(tiles_of(grid, "cuda"))
-
-    def kept() -> None:
-        for tile in tiles:
-            on_device(grid, tile)
-        cuda.synchronize()
-
-    calls = {"kept": kept, "copied": lambda: stability_map(subject, engine="cuda", **axes)}
-    seconds = interleaved(calls, 5, time.perf_counter)
-    rate = SIDE * SIDE / seconds["kept"]
-    return [
-        title,
-        Row(f"a map of {SIDE} x {SIDE} points, kept on the device", seconds["kept"]),
-        Row(f"  points in a second: {rate:.2g} (limit 1e11)", ok=rate >= 1e11),
-        Row("the same, copied back", seconds["copied"]),
-        Row(f"  points in a second: {SIDE * SIDE / seconds['copied']:.2g}"),
     ]
 
 

@@ -32,7 +32,7 @@ def seeded(text: str, model: type[Model] | None, function: str = "") -> Iterator
     tree = ast.parse(text)
     original = ast.unparse(tree)
     for where, root in _bodies(tree, function):
-        known = {argument.arg for argument in root.args.args} if isinstance(root, ast.FunctionDef) else set()
+        known = {argument.arg for argument in root.args.args} if isinstance(root, ast.FunctionDef) else {"self"}
         for place in _places(root):
             node = _get(place)
             for what, other in _errors(node, model, known):
@@ -47,10 +47,16 @@ def _bodies(tree: ast.Module, function: str) -> Iterator[tuple[str, ast.AST]]:
             yield node.name, node
         elif isinstance(node, ast.ClassDef) and function in ("", node.name):
             for item in node.body:
-                if isinstance(item, ast.FunctionDef):
+                if isinstance(item, ast.FunctionDef) and item.name != "drawing":
                     yield item.name, item
-                elif isinstance(item, ast.Assign) and isinstance(item.value, ast.Constant):
+                elif isinstance(item, ast.Assign) and (
+                    isinstance(item.value, ast.Constant) or _is_property(item.value)
+                ):
                     yield "class body", item
+
+
+def _is_property(node: ast.expr) -> bool:
+    return isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "property"
 
 
 def _places(root: ast.AST) -> Iterator[Place]:

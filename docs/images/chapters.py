@@ -1,39 +1,13 @@
-"""Draw the pictures of the chapters' pages: ``python docs/images/chapters.py [name ...]``."""
-
-import sys
-from pathlib import Path
+"""Pictures of chapters 1, 5, 6, 8 and 10."""
 
 import numpy as np
+from pictures import WIDTH, curve, figure_with_axes, picture
 from scipy.integrate import solve_ivp
 
 from ucrit import critical, load, locus, stability_map, steady_turn, step_response, sweep
 from ucrit.core.motion import motion
 from ucrit.plots import plot_damping, plot_map, style
 from ucrit.plots.labels import math_symbol
-
-DPI = 135
-WIDTH = 7.4
-"""Inches; 999 pixels."""
-
-
-def save(figure, name):
-    """Write a picture beside this script, the same bytes every time."""
-    figure.savefig(Path(__file__).with_name(f"{name}.png"), dpi=DPI, metadata={"Software": None})
-
-
-def figure_with_axes(height, columns=1, **options):
-    """Return an empty figure of the pages' width, and its axes."""
-    figure = style.new_figure(WIDTH, height)
-    axes = figure.subplots(1, columns, **options)
-    for one in np.atleast_1d(axes):
-        style.tidy(one)
-    return figure, axes
-
-
-def curve(axes, x, y, number, text, **options):
-    """Draw a line in the colour and dash of its number, for the legend to name."""
-    chosen = {"color": style.colour(number), "linestyle": style.dash(number), "linewidth": 1.7, **options}
-    axes.plot(x, y, label=text, **chosen)
 
 
 def simulate(vehicle, start, end, points=600):
@@ -44,6 +18,7 @@ def simulate(vehicle, start, end, points=600):
     return found.t, dict(zip(moving.labels, found.y, strict=True))
 
 
+@picture("chapter-01-wheelset")
 def wheelset_paths():
     wheelset = load("wheelset-1-in-20")
     speed = wheelset.values["r_0"] * wheelset.values["Omega"]
@@ -59,9 +34,10 @@ def wheelset_paths():
     axes.set_ylabel("lateral displacement [mm]")
     axes.set_ylim(-6, 12)
     axes.legend(frameon=False, loc="upper right")
-    save(figure, "chapter-01-wheelset")
+    return figure
 
 
+@picture("chapter-01-cart")
 def cart_swings_round():
     cart = load("supermarket-cart").with_(U=-1.2)
     b = cart.values["b"]
@@ -97,9 +73,10 @@ def cart_swings_round():
     over.set_xlabel("time [s]")
     over.legend(frameon=False, loc="upper left")
     over.set_ylim(-1.5, 3.6)
-    save(figure, "chapter-01-cart")
+    return figure
 
 
+@picture("chapter-05-damping")
 def trailer_damping():
     caravan = load("caravan")
     figure = style.new_figure(WIDTH, 3.6)
@@ -110,10 +87,11 @@ def trailer_damping():
     c = np.array([0, 12e3])
     axes.plot(c, rigid * c, color=style.colour(1), linestyle=style.dash(1), linewidth=1.6, zorder=5)
     axes.set_ylim(1, 40)
-    style.label(axes, "tires that do not slip", (6600, 26.2), rotation=39, ha="center", va="bottom")
-    save(figure, "chapter-05-damping")
+    style.label(axes, "tires that do not slip", (4500, 20.9), rotation=32, ha="center", va="top")
+    return figure
 
 
+@picture("chapter-05-locus")
 def trailer_locus():
     trailer = load("caravan-rigid-hitch")
     p = trailer.values
@@ -142,31 +120,35 @@ def trailer_locus():
     axes.set_xlabel("real part [1/s]")
     axes.set_ylabel("imaginary part [rad/s]")
     style.label(axes, "unstable", (1, 4.8), ha="center")
-    save(figure, "chapter-05-locus")
+    return figure
 
 
+@picture("chapter-08-flexible-pivot")
 def caster_map():
     caster = load("shimmying-caster")
     figure = style.new_figure(WIDTH, 3.6)
     grid = stability_map(caster, a=np.linspace(0.005, 0.4, 500), k="3e3:3e5:500:log")
     plot_map(grid, vehicle=caster, figure=figure)
-    save(figure, "chapter-08-flexible-pivot")
+    return figure
 
 
+@picture("chapter-08-damped")
 def caster_damped():
     caster = load("shimmying-caster-damped")
     figure = style.new_figure(WIDTH, 3.7)
     plot_damping(locus(caster, "U", 0.5, 25.0), critical=critical(caster), figure=figure)
-    save(figure, "chapter-08-damped")
+    return figure
 
 
+@picture("chapter-10-truck")
 def truck_damping():
     truck = load("coach-truck")
     figure = style.new_figure(WIDTH, 4.4)
     plot_damping(locus(truck, "V", 5.0, 90.0), critical=critical(truck), figure=figure)
-    save(figure, "chapter-10-truck")
+    return figure
 
 
+@picture("chapter-10-formula")
 def creep_and_conicity():
     wheelset = load("wheelset").with_(k_1=1e7)
     figure, (left, right) = figure_with_axes(3.1, 2)
@@ -195,13 +177,14 @@ def creep_and_conicity():
     right.set_xlabel("conicity")
     right.set_ylabel("critical speed [m/s]")
     right.legend(frameon=False, loc="upper right")
-    save(figure, "chapter-10-formula")
+    return figure
 
 
 BESIDE = {"textcoords": "offset points", "ha": "right"}
 CARS = ("understeering-car", "neutral-car", "oversteering-car")
 
 
+@picture("chapter-06-gains")
 def car_gains():
     figure, (acceleration, yaw) = figure_with_axes(3.3, 2)
     for number, name in enumerate(CARS):
@@ -226,9 +209,10 @@ def car_gains():
         one.set_xlabel("speed [m/s]")
         one.set_xlim(0, 55)
     acceleration.legend(frameon=False, loc="upper left")
-    save(figure, "chapter-06-gains")
+    return figure
 
 
+@picture("chapter-06-steps")
 def car_steps():
     figure, axes = figure_with_axes(2.9)
     car = load("understeering-car")
@@ -242,9 +226,10 @@ def car_steps():
     axes.set_xlabel("time after the step [s]")
     axes.set_ylabel("lateral acceleration [m/s²]")
     axes.legend(frameon=False, loc="lower right")
-    save(figure, "chapter-06-steps")
+    return figure
 
 
+@picture("chapter-06-weave")
 def car_weave():
     figure, (speed, trail) = figure_with_axes(3.1, 2)
     car = load("released-steering-wheel")
@@ -257,28 +242,8 @@ def car_weave():
     speed.legend(frameon=False, loc="upper right")
     e = np.linspace(0.006, 0.1, 60)
     found = [critical(car.with_(e=float(one))) for one in e]
-    curve(trail, 100 * e, [c[-1].value if len(c) else np.nan for c in found], 3, "critical speed")
+    curve(trail, 100 * e, [c[-1].value if len(c) else np.nan for c in found], 0, "critical speed")
     trail.set_xlabel("trail [cm]")
     trail.set_ylabel("critical speed [m/s]")
     trail.set_ylim(0, 260)
-    save(figure, "chapter-06-weave")
-
-
-DRAWINGS = {
-    "wheelset": wheelset_paths,
-    "cart": cart_swings_round,
-    "damping": trailer_damping,
-    "locus": trailer_locus,
-    "caster": caster_map,
-    "damped": caster_damped,
-    "truck": truck_damping,
-    "formula": creep_and_conicity,
-    "gains": car_gains,
-    "steps": car_steps,
-    "weave": car_weave,
-}
-
-if __name__ == "__main__":
-    with style.settings():
-        for name in sys.argv[1:] or DRAWINGS:
-            DRAWINGS[name]()
+    return figure

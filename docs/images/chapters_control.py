@@ -1,4 +1,4 @@
-"""Draw the pictures of chapters 7 (control) and 11: ``python docs/images/chapters_control.py [name ...]``."""
+"""Pictures of chapters 7 (control) and 11."""
 
 import re
 import sys
@@ -6,7 +6,7 @@ import types
 from pathlib import Path
 
 import numpy as np
-from chapters import curve, figure_with_axes, save
+from pictures import curve, figure_with_axes, picture
 
 from ucrit import load, margins, simulate, step_response
 from ucrit.catalogue import find_controller
@@ -15,6 +15,7 @@ from ucrit.control import close, observer, place, slide
 PAGE = Path(__file__).parent.parent / "chapter-11.md"
 
 
+@picture("chapter-07-front")
 def step_of_lean():
     ridden = load("motorcycle-steered-to-lean")
     size = np.radians(5)
@@ -30,9 +31,10 @@ def step_of_lean():
     axes.set_xlabel("time [s]")
     axes.set_ylabel("angle [degrees]")
     axes.legend(frameon=False)
-    save(figure, "chapter-07-front")
+    return figure
 
 
+@picture("chapter-07-turn")
 def step_of_curvature():
     ridden = close(load("motorcycle-steered-to-lean"), find_controller("lean-from-curvature"))
     figure, axes = figure_with_axes(2.9, columns=2)
@@ -45,7 +47,7 @@ def step_of_curvature():
     for one in axes:
         one.set_xlabel("time [s]")
     axes[1].legend(frameon=False)
-    save(figure, "chapter-07-turn")
+    return figure
 
 
 def windy_car():
@@ -58,6 +60,7 @@ def windy_car():
     return module.WindyCar(m=1500, I_z=2500, a=1.25, b=1.5, x_w=0.4, U=25, **tires)
 
 
+@picture("chapter-11-robust", compared="build")
 def robustness():
     car, reference = windy_car(), load("neutral-car")
     changed = ["m", "I_z", "front_C", "rear_C", "front_mu", "rear_mu"]
@@ -82,9 +85,10 @@ def robustness():
         one.set_xlabel("time [s]")
     axes[0].set_ylabel("change of the yaw rate [%]")
     axes[0].legend(frameon=False, fontsize=8)
-    save(figure, "chapter-11-robust")
+    return figure
 
 
+@picture("chapter-11-margins")
 def margins_over_speed():
     figure, axes = figure_with_axes(2.9, columns=2)
     U = np.linspace(6, 80, 400)
@@ -101,16 +105,4 @@ def margins_over_speed():
         one.set_xlabel("speed [m/s]")
         one.set_ylim(bottom=0)
     axes[0].legend(frameon=False)
-    save(figure, "chapter-11-margins")
-
-
-PICTURES = {
-    "front": step_of_lean,
-    "turn": step_of_curvature,
-    "robust": robustness,
-    "margins": margins_over_speed,
-}
-
-if __name__ == "__main__":
-    for chosen in sys.argv[1:] or PICTURES:
-        PICTURES[chosen]()
+    return figure

@@ -1,9 +1,7 @@
-"""Draw responses that chapters 1, 3 and 9 sketch: ``python docs/images/chapters_first.py [name ...]``."""
-
-import sys
+"""Responses that chapters 1, 3 and 9 sketch."""
 
 import numpy as np
-from chapters import curve, figure_with_axes, save
+from pictures import curve, figure_with_axes, picture
 
 from ucrit import load, modes, simulate
 from ucrit.plots import style
@@ -11,6 +9,7 @@ from ucrit.plots import style
 DROPPED = (("understeering-car", 30), ("oversteering-car-on-the-road", 20), ("oversteering-car-on-the-road", 40))
 
 
+@picture("chapter-01-responses")
 def cart_responses():
     figure, axes = figure_with_axes(2.9)
     times = np.linspace(0, 1.5, 200)
@@ -23,9 +22,10 @@ def cart_responses():
     axes.set_ylabel("yaw rate over its first value")
     axes.set_ylim(0, 8)
     axes.legend(frameon=False, loc="upper left")
-    save(figure, "chapter-01-responses")
+    return figure
 
 
+@picture("chapter-03-responses")
 def marbles_and_mass():
     figure, (marble, mass) = figure_with_axes(3.0, 2)
     times = np.linspace(0, 3, 400)
@@ -45,9 +45,10 @@ def marbles_and_mass():
         axes.axhline(0, color=style.MUTED, linewidth=0.8)
         axes.set_xlabel("time [s]")
         axes.legend(frameon=False, loc=place)
-    save(figure, "chapter-03-responses")
+    return figure
 
 
+@picture("chapter-09-paths")
 def dropped_cars():
     figure, axes = figure_with_axes(3.0)
     words = ("understeering, 30 m/s", "oversteering below its critical speed, 20 m/s", "oversteering above it, 40 m/s")
@@ -62,12 +63,4 @@ def dropped_cars():
     axes.set_ylabel("to the right [m]")
     axes.invert_yaxis()
     axes.legend(frameon=False, loc="lower left")
-    save(figure, "chapter-09-paths")
-
-
-DRAWINGS = {"cart": cart_responses, "marbles": marbles_and_mass, "paths": dropped_cars}
-
-if __name__ == "__main__":
-    with style.settings():
-        for name in sys.argv[1:] or DRAWINGS:
-            DRAWINGS[name]()
+    return figure

@@ -1,9 +1,7 @@
-"""Draw the pictures of chapters 7 and 9: ``python docs/images/chapters_flight.py [name ...]``."""
-
-import sys
+"""Pictures of chapters 7 and 9."""
 
 import numpy as np
-from chapters import curve, figure_with_axes, save
+from pictures import curve, figure_with_axes, picture
 
 from ucrit import load, moment_line, simulate, static_margin, step_response, trim
 from ucrit.core.compiled import state_space
@@ -11,6 +9,7 @@ from ucrit.parts import wings
 from ucrit.plots import style
 
 
+@picture("chapter-07-steps")
 def lean_steps():
     figure, panels = figure_with_axes(3.0, 2, sharey=True)
     motorcycle = load("motorcycle-lean").with_(U=5.0)
@@ -25,9 +24,10 @@ def lean_steps():
         axes.set_xlabel(f"time after 2 degrees of {text} steer to the right [s]")
     panels[0].set_ylabel("lean to the right [degrees]")
     panels[0].legend(frameon=False, loc="lower left")
-    save(figure, "chapter-07-steps")
+    return figure
 
 
+@picture("chapter-09-section")
 def section_lift():
     figure, (axes, moment) = figure_with_axes(2.9, 2)
     alpha = np.deg2rad(np.linspace(-10, 60, 500))
@@ -47,9 +47,10 @@ def section_lift():
     moment.set_ylabel("moment coefficient, with camber")
     moment.set_ylim(-0.4, 0.2)
     moment.legend(frameon=False, loc="upper right")
-    save(figure, "chapter-09-section")
+    return figure
 
 
+@picture("chapter-09-moment")
 def moment_lines():
     figure, (elevator, place) = figure_with_axes(3.3, 2, sharey=True)
     plane = load("navion-from-geometry")
@@ -70,9 +71,10 @@ def moment_lines():
         axes.set_ylim(-0.22, 0.18)
         axes.legend(frameon=False, loc="lower left", title=title)
     elevator.set_ylabel("moment coefficient")
-    save(figure, "chapter-09-moment")
+    return figure
 
 
+@picture("chapter-09-phugoid")
 def phugoid_speeds():
     figure, axes = figure_with_axes(2.9)
     full, simple = load("navion-from-geometry"), load("navion-phugoid")
@@ -84,9 +86,10 @@ def phugoid_speeds():
     axes.set_xlabel("time [s]")
     axes.set_ylabel("speed [m/s]")
     axes.legend(frameon=False, loc="upper right")
-    save(figure, "chapter-09-phugoid")
+    return figure
 
 
+@picture("chapter-09-last-term")
 def last_terms():
     figure, (left, right) = figure_with_axes(3.1, 2)
     plane = load("navion-plane")
@@ -104,18 +107,4 @@ def last_terms():
         axes.axhline(0, color=style.INK, linewidth=0.9)
         axes.set_xlabel("speed [m/s]")
     left.set_ylabel("last term per leading term [1/s²]")
-    save(figure, "chapter-09-last-term")
-
-
-DRAWINGS = {
-    "steps": lean_steps,
-    "section": section_lift,
-    "moment": moment_lines,
-    "phugoid": phugoid_speeds,
-    "last": last_terms,
-}
-
-if __name__ == "__main__":
-    with style.settings():
-        for name in sys.argv[1:] or DRAWINGS:
-            DRAWINGS[name]()
+    return figure

@@ -1,18 +1,20 @@
-"""Pictures of cars near the limit for chapter 6: ``python docs/images/chapters_limit.py``."""
+"""Cars near the limit, for chapter 6."""
 
 import numpy as np
-from chapters import WIDTH, curve, figure_with_axes, save
+from pictures import WIDTH, curve, figure_with_axes, picture
 
 from ucrit import handling_diagram, load, rollover
 from ucrit.plots import plot_handling, style
 
 
+@picture("chapter-06-handling")
 def handling():
     figure = style.new_figure(WIDTH, 2.9)
     plot_handling(handling_diagram(load("spinning-car")), figure=figure)
-    save(figure, "chapter-06-handling")
+    return figure
 
 
+@picture("chapter-06-limit")
 def steering():
     """Figure 6.15: steer angle against curvature at three speeds."""
     figure, (spins, ploughs) = figure_with_axes(3.1, 2)
@@ -30,9 +32,10 @@ def steering():
         axes.set_xlabel("curvature 1/R [1/m]")
         axes.set_ylabel("steer angle [deg]")
     spins.legend(frameon=False, loc="upper right", title="dashed: unstable", title_fontsize=8.5)
-    save(figure, "chapter-06-limit")
+    return figure
 
 
+@picture("chapter-06-loads")
 def loads():
     """Problem 6.8: loads of the four wheels in a turn to the right."""
     car = load("four-wheel-car")
@@ -50,13 +53,4 @@ def loads():
     axes.set_xlabel("lateral acceleration [g]")
     axes.set_ylabel("load of a wheel [kN]")
     axes.legend(frameon=False, loc="upper left")
-    save(figure, "chapter-06-loads")
-
-
-PICTURES = {"handling": handling, "limit": steering, "loads": loads}
-"""What each picture is drawn by."""
-
-if __name__ == "__main__":
-    with style.settings():
-        for draw in PICTURES.values():
-            draw()
+    return figure

@@ -1,13 +1,12 @@
-"""Draw the pictures of the page on spinning satellites: ``python docs/images/chapters_spin.py [name ...]``."""
+"""Spinning satellites, for chapter 2."""
 
-import sys
-
-from chapters import curve, figure_with_axes, save
+from pictures import curve, figure_with_axes, picture
 
 from ucrit import load, simulate
 from ucrit.plots import style
 
 
+@picture("chapter-02-spin")
 def spin_about_two_axes():
     figure, (tumble, sink) = figure_with_axes(3.1, 2)
     middle = simulate(load("satellite-middle-axis"), 10, {"q": 0.01})
@@ -25,12 +24,4 @@ def spin_about_two_axes():
         axes.set_xlabel("time [s]")
     tumble.set_ylabel("rate [rad/s]")
     sink.legend(frameon=False, loc="lower right", ncols=3, handlelength=2.4)
-    save(figure, "chapter-02-spin")
-
-
-DRAWINGS = {"spin": spin_about_two_axes}
-
-if __name__ == "__main__":
-    with style.settings():
-        for name in sys.argv[1:] or DRAWINGS:
-            DRAWINGS[name]()
+    return figure

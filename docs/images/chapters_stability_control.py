@@ -1,20 +1,17 @@
-"""Pictures of stability control: ``python docs/images/chapters_stability_control.py``."""
-
-import sys
+"""Stability control."""
 
 import numpy as np
-from chapters import curve, figure_with_axes, save
+from pictures import curve, figure_with_axes, picture
 
 from ucrit import SineWithDwell, dwell_criteria, load, simulate
 from ucrit.analyses.motion.scene import scene
-from ucrit.plots import style
 
 BARE, CAR = load("car-on-worn-rear-tires"), load("car-with-stability-control")
 FAST = {"tolerance": 1e-5}
 STEERED = SineWithDwell("7 deg", at=0.5)
 
 
-def three_curves(name, motions):
+def three_curves(motions):
     """Yaw rate, sideslip angle and path of several motions."""
     figure, (turn, slide, ground) = figure_with_axes(2.7, 3)
     for number, (label, motion) in enumerate(motions.items()):
@@ -31,25 +28,25 @@ def three_curves(name, motions):
     ground.set_ylabel("to the right [m]")
     ground.invert_yaxis()
     turn.legend(frameon=False, loc="best", fontsize=8)
-    save(figure, name)
+    return figure
 
 
+@picture("stability-control-dwell", compared="build")
 def dwell():
     """The sine with dwell of 7 degrees at 80 km/h."""
     cars = {"without": BARE, "with control": CAR}
-    three_curves(
-        "stability-control-dwell",
+    return three_curves(
         {label: simulate(car, 4.5, inputs={"delta_f": STEERED}, **FAST) for label, car in cars.items()},
     )
 
 
+@picture("stability-control-split", compared="build")
 def split():
     """Full braking from 80 km/h with 0.3 of the friction on the left."""
     road, brake = {"mu_left": 0.3}, {"brake": 9000}
     front, rear = CAR.share / 2 * 9000, (1 - CAR.share) / 2 * 9000
     locked = {"brake_fl": front, "brake_fr": front, "brake_rl": rear, "brake_rr": rear}
-    three_curves(
-        "stability-control-split",
+    return three_curves(
         {
             "brakes only": simulate(BARE, 6, inputs=road | locked, **FAST),
             "slip control": simulate(CAR.with_(G=0), 6, inputs=road | brake, **FAST),
@@ -77,26 +74,17 @@ def largest(car, U, top, step):
     return low
 
 
+@picture("stability-control-limits", compared="hand")
 def limits():
     """Largest steer angle of a sine with dwell that is passed, over speed."""
     figure, axes = figure_with_axes(3.0)
-    speeds = np.arange(50, 211, 20) / 3.6
+    speeds = np.arange(50, 211, 40) / 3.6
     for number, (label, car) in enumerate({"without": BARE, "with control": CAR}.items()):
         held = np.array([largest(car, U, *np.deg2rad((16, 2))) for U in speeds])
         shown = np.where(held < np.deg2rad(15.9), np.rad2deg(held), np.nan)
         curve(axes, speeds * 3.6, shown, number, label, marker="o", markersize=3)
-        print(label, dict(zip((speeds * 3.6).round(), np.rad2deg(held).round(1), strict=True)))
     axes.set_ylim(0, 16)
     axes.set_xlabel("speed [km/h]")
     axes.set_ylabel("steer angle that is passed [deg]")
     axes.legend(frameon=False)
-    save(figure, "stability-control-limits")
-
-
-PICTURES = {"dwell": dwell, "split": split, "limits": limits}
-"""What each picture is drawn by."""
-
-if __name__ == "__main__":
-    with style.settings():
-        for name in sys.argv[1:] or PICTURES:
-            PICTURES[name]()
+    return figure

@@ -1,9 +1,7 @@
-"""Draw the pictures of chapter 4: ``python docs/images/chapters_tires.py [name ...]``."""
-
-import sys
+"""Pictures of chapter 4."""
 
 import numpy as np
-from chapters import curve, figure_with_axes, save
+from pictures import curve, figure_with_axes, picture
 
 from ucrit import plot, tire, tire_curves
 from ucrit.parts.tires import axle_coefficient
@@ -12,12 +10,14 @@ from ucrit.plots import style
 ROADS = {"dry": 1.0, "wet": 0.6, "ice": 0.12}
 
 
+@picture("chapter-04-curves")
 def four_panels():
     figure = style.new_figure(7.4, 6.2)
     plot(tire_curves(tire("pac2002-235-60r16")), figure=figure)
-    save(figure, "chapter-04-curves")
+    return figure
 
 
+@picture("chapter-04-roads")
 def roads():
     figure, panels = figure_with_axes(3.1, 2)
     curves = tire_curves(tire("pac2002-235-60r16"), [5000.0], ROADS)
@@ -32,9 +32,10 @@ def roads():
     for axes in panels:
         axes.set_ylim(0, 1.45)
         axes.legend(frameon=False, loc="upper right", ncols=3)
-    save(figure, "chapter-04-roads")
+    return figure
 
 
+@picture("chapter-04-load")
 def load_transfer():
     figure, (single, axle) = figure_with_axes(3.1, 2)
     load, transfer = np.linspace(100, 9000, 200), np.linspace(0, 3900, 100)
@@ -48,9 +49,10 @@ def load_transfer():
     axle.set_ylabel("sum of the axle [kN/rad]")
     axle.set_ylim(bottom=0)
     single.legend(frameon=False, loc="lower right", fontsize=8)
-    save(figure, "chapter-04-load")
+    return figure
 
 
+@picture("chapter-04-laws")
 def laws():
     figure, axes = figure_with_axes(3.1)
     alpha = np.radians(np.linspace(0, 15, 151))
@@ -69,16 +71,4 @@ def laws():
     axes.set_ylabel("side force under 4 kN [kN]")
     axes.set_ylim(0, 6)
     axes.legend(frameon=False, loc="lower right")
-    save(figure, "chapter-04-laws")
-
-
-PICTURES = {
-    "chapter-04-curves": four_panels,
-    "chapter-04-roads": roads,
-    "chapter-04-load": load_transfer,
-    "chapter-04-laws": laws,
-}
-
-if __name__ == "__main__":
-    for name in sys.argv[1:] or PICTURES:
-        PICTURES[name]()
+    return figure

@@ -1,15 +1,15 @@
-"""Draw the pictures of the page on limit cycles: ``python docs/images/cycles.py [name ...]``."""
+"""Limit cycles."""
 
 import math
-import sys
 
 import numpy as np
-from chapters import WIDTH, curve, figure_with_axes, save
+from pictures import WIDTH, curve, figure_with_axes, picture
 
 from ucrit import limit_cycles, load, plot, simulate
 from ucrit.plots import style
 
 
+@picture("beyond-nose-gear", compared="build")
 def nose_gear():
     """Amplitude against speed, and the simulation that comes to the cycle."""
     gear = load("nose-gear", {"k": -10})
@@ -29,14 +29,18 @@ def nose_gear():
         right.axhline(sign * 24.33, color=style.INK, linewidth=1, linestyle=(0, (4, 2.2)))
     right.set_xlabel("time [s], at 25 m/s from 5 deg")
     right.set_ylabel("swivel angle [deg]")
-    save(figure, "beyond-nose-gear")
+    return figure
 
 
+@picture("beyond-caravan")
 def caravan():
-    """Bifurcation diagram, and one motion on either side of the unstable cycle."""
-    found = limit_cycles(load("caravan-with-stabiliser"), upper=40)
     figure = style.new_figure(WIDTH, 3.6)
-    save(plot(found, figure=figure), "beyond-caravan")
+    return plot(limit_cycles(load("caravan-with-stabiliser"), upper=40), figure=figure)
+
+
+@picture("beyond-caravan-motion", compared="build")
+def motions_of_caravan():
+    """One motion on either side of the unstable cycle."""
     figure, axes = figure_with_axes(2.7)
     vehicle = load("caravan-with-stabiliser", {"U": "90 km/h"})
     for number, angle in enumerate((8, 16)):
@@ -46,18 +50,11 @@ def caravan():
     axes.set_ylabel("yaw angle of the trailer [deg]")
     axes.legend(frameon=False, loc="upper left", ncols=2)
     axes.set_ylim(-35, 42)
-    save(figure, "beyond-caravan-motion")
+    return figure
 
 
+@picture("beyond-wheelset")
 def wheelset():
-    """Bifurcation diagram of a wheelset between its flanges."""
+    """A wheelset between its flanges."""
     figure = style.new_figure(WIDTH, 3.6)
-    save(plot(limit_cycles(load("worn-wheelset"), upper=60), figure=figure), "beyond-wheelset")
-
-
-DRAWINGS = {"nose-gear": nose_gear, "caravan": caravan, "wheelset": wheelset}
-
-if __name__ == "__main__":
-    with style.settings():
-        for name in sys.argv[1:] or DRAWINGS:
-            DRAWINGS[name]()
+    return plot(limit_cycles(load("worn-wheelset"), upper=60), figure=figure)

@@ -7,29 +7,40 @@ Sphinx does the rest; its warnings are errors.
 
 import argparse
 import hashlib
+import inspect
 import re
 import shutil
 import sys
 import tempfile
+import textwrap
 from pathlib import Path
 
-import commands
-import interface
-from execute import run_page
-
-import models
-from ucrit.catalogue import model_names, vehicle_names
-
 ROOT = Path(__file__).resolve().parents[2]
+sys.path.append(str(ROOT / "docs" / "images"))
+
+import commands  # noqa: E402
+import interface  # noqa: E402
+from draw import PICTURES, check, command  # noqa: E402
+from execute import run_page  # noqa: E402
+from pictures import COMPARED  # noqa: E402
+
+import models  # noqa: E402
+from ucrit.catalogue import model_names, vehicle_names  # noqa: E402
+
 DOCS = ROOT / "docs"
-LINK = re.compile(r"(\]\()([^)\s]+)(\))")
+LINK = re.compile(r"(\]\()([^)\s]+)((?: \"[^\"]*\")?\))")
+PICTURE = re.compile(r"^!\[.*\]\(images/([\w-]+)\.png .*\)$", re.MULTILINE)
+LINKED = re.compile(r"\]\(([\w-]+)\.md\)")
 NAME = re.compile(r"(?<![\[`])`([a-z0-9-]+)`(?![`\]])")
 LANGUAGE = re.compile(r"^(`{3,})(\w+)$", re.MULTILINE)
-
-FIRST = ("readme", "add-a-vehicle", "measurements")
-"""Pages that stand first; the others follow by their names."""
-
-TITLES = {"readme": "Read me first <readme>"}
+REFERENCE = [
+    "reference/models/index",
+    "reference/vehicles",
+    "reference/laws",
+    "reference/commands",
+    "reference/python/index",
+    "changelog",
+]
 
 
 def write(path, text):
@@ -68,58 +79,66 @@ def linked(match):
     return f"[`{name}`](reference/models/{name}.md)" if name in model_names() else match[0]
 
 
+def explained(match):
+    """Return a picture with what draws it below, folded up."""
+    if match[1] not in PICTURES:
+        return match[0]
+    code = textwrap.dedent(inspect.getsource(PICTURES[match[1]])).rstrip()
+    told = f"<summary>How this is drawn</summary>\n\n`{command(match[1])}`\n\n```python\n{code}\n```"
+    return f'{match[0]}\n\n<details class="drawn">{told}\n\n</details>'
+
+
 def page(path):
     """Return a page's text with its links adjusted, links to the reference, and no language that cannot be coloured."""
     text = LANGUAGE.sub(lambda match: match[1] + coloured(match[2]), path.read_text(encoding="utf-8"))
     text = LINK.sub(lambda match: match[1] + moved(match[2]) + match[3], text)
+    text = PICTURE.sub(explained, text)
     parts = re.split(r"(^```.*?^```$)", text, flags=re.MULTILINE | re.DOTALL)
     return "".join(part if part.startswith("```") else NAME.sub(linked, part) for part in parts)
 
 
 def execute(pages, folder):
-    """Run the pages that are not known to be right for the package as it is; return what is wrong, a text a page."""
+    """Run the pages, and draw the slow pictures, that are not known to be right; return what is wrong, by name."""
     package = hashlib.sha256()
-    for path in sorted((ROOT / "src").rglob("*")):
+    for path in sorted((*(ROOT / "src").rglob("*"), *(DOCS / "images").glob("*.py"))):
         if path.is_file() and path.suffix not in (".pyc",):
             package.update(path.read_bytes())
     wrong = {}
-    for name, path in pages.items():
+    slow = [name for name, when in COMPARED.items() if when == "build"]
+    for name, path in {**pages, **{name: DOCS / "images" / f"{name}.png" for name in slow}}.items():
         stamp = folder / "run" / name
         state = hashlib.sha256(path.read_bytes() + package.digest()).hexdigest()
         if stamp.is_file() and stamp.read_text(encoding="utf-8") == state:
             continue
         with tempfile.TemporaryDirectory() as place:
             try:
-                run_page(path, Path(place), folder / "cache")
+                told = check(name) if name in slow else run_page(path, Path(place), folder / "cache")
             except AssertionError as error:
-                wrong[name] = str(error)
-                continue
-        write(stamp, state)
+                told = str(error)
+        if told:
+            wrong[name] = told
+        else:
+            write(stamp, state)
     return wrong
 
 
-def index(names):
-    """Return the first page: the one that is written, and the lists that make the menu."""
-    chapters = [name for name in names if name.startswith("chapter-")]
-    rest = sorted(set(names) - set(chapters) - {*FIRST, "index", "changelog"})
-    menus = {
-        "Pages": [*(TITLES.get(name, name) for name in FIRST if name in names), *rest],
-        "Vehicle Stability, by chapter": chapters,
-        "Examples": ["gallery/index"],
-        "Reference": [
-            "reference/models/index",
-            "reference/vehicles",
-            "reference/laws",
-            "reference/commands",
-            "reference/python/index",
-            "changelog",
-        ],
-    }
+def titled(name):
+    """Return a page as the menu has it: by its own title, or by one that tells more."""
+    return "Read me first <readme>" if name == "readme" else name
+
+
+def index():
+    """Return the first page, and the menu: the pages under each of its headings, in their order."""
+    text = page(DOCS / "index.md")
+    first, *parts = re.split(r"^## ", text, flags=re.MULTILINE)
+    menus = {"": first, **dict(part.split("\n", 1) for part in parts)}
+    menus = {title.replace("*", ""): dict.fromkeys(map(titled, LINKED.findall(part))) for title, part in menus.items()}
+    menus |= {"Examples": ["gallery/index"], "Reference": REFERENCE}
     lists = [
-        f"```{{toctree}}\n:hidden:\n:caption: {title}\n\n" + "\n".join(found) + "\n```"
+        "```{toctree}\n:hidden:\n" + f":caption: {title}\n" * bool(title) + "\n" + "\n".join(found) + "\n```"
         for title, found in menus.items()
     ]
-    return page(DOCS / "index.md") + "\n" + "\n\n".join(lists) + "\n"
+    return text + "\n" + "\n\n".join(lists) + "\n"
 
 
 def sources():
@@ -131,7 +150,7 @@ def sources():
 def stage(folder):
     """Write everything that Sphinx reads."""
     pages = sources()
-    wanted = {folder / "index.md": index(list(pages))}
+    wanted = {folder / "index.md": index()}
     wanted |= {folder / f"{name}.md": page(path) for name, path in pages.items() if name != "index"}
     for part in (models, commands, interface):
         wanted |= {folder / "reference" / name: text for name, text in part.pages().items()}

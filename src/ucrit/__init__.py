@@ -5,6 +5,7 @@ from __future__ import annotations
 import builtins
 import importlib
 from collections.abc import Iterable
+from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
@@ -53,6 +54,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.regions.boundary import boundary as boundary
     from .analyses.regions.certify import certify as certify
     from .analyses.regions.lazy import lazy as lazy
+    from .analyses.regions.stability_map import stability_map as map  # noqa: F401
     from .analyses.regions.stability_map import stability_map as stability_map
     from .analyses.regions.stream import stream as stream
     from .analyses.regions.sweep import sweep as sweep
@@ -178,6 +180,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "power_flow": "analyses.motion.power_flow",
     "show": "analyses.about.show",
     "list": ("analyses.about.listing", "listing"),
+    "map": ("analyses.regions.stability_map", "stability_map"),
     "new": ("analyses.about.listing", "template"),
     "check": ("checks", "check_model"),
     "check_model": "checks",
@@ -199,8 +202,11 @@ def __getattr__(name: str) -> Any:
     place = _PUBLIC[name]
     module, attribute = place if isinstance(place, tuple) else (place, name)
     value = getattr(importlib.import_module(f"ucrit.{module}"), attribute)
-    globals()[name] = value
-    return value
+    if isinstance(value, FunctionType):
+        if attribute != name and attribute in _PUBLIC:  # another name for the same function
+            return globals().setdefault(name, __getattr__(attribute))
+        value = importlib.import_module("ucrit.core.asked").asked(value, name)
+    return globals().setdefault(name, value)
 
 
 def __dir__() -> Iterable[str]:

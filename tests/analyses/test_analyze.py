@@ -149,3 +149,10 @@ def test_participation_does_not_depend_on_units():
     values, vectors = np.linalg.eig(scale @ A @ np.linalg.inv(scale))
     order = [int(np.argmin(abs(values - v))) for v in modes(load("caravan")).eigenvalues]
     assert first == pytest.approx(_participation(vectors)[:, order], rel=1e-9)
+
+
+def test_a_zero_root_is_called_by_what_stays():
+    said = analyze(load("four-wheel-car")).sentence
+    assert said.endswith("(a zero root: forward speed, which nothing restores, harmless)")
+    names = [mode.name for mode in modes(load("large-airplane-body"))]
+    assert names == ["forward speed", "sideslip speed", "heave speed", "roll rate", "pitch rate", "yaw rate"]

@@ -51,7 +51,7 @@ def regions(draw):
 @given(regions(), st.integers(0, 2**31))
 def test_what_is_proved_is_so_and_counterexamples_are_unstable(case, seed):
     name, base, criterion, region = case
-    found = certify(find_model(name)(**base), region, boxes=3000)
+    found = certify(find_model(name)(**base), **region, boxes=3000)
     random = np.random.default_rng(seed)
     share = random.integers(0, 2, (40, len(region))) * 1.0
     share[20:] = random.uniform(size=(20, len(region)))
@@ -90,7 +90,7 @@ def around(vehicle, share):
 def test_every_vehicle_gets_a_certificate_that_agrees_with_exact_arithmetic(name):
     vehicle = load(name)
     region = around(vehicle, 0.02)
-    found = certify(vehicle, region, boxes=400)
+    found = certify(vehicle, **region, boxes=400)
     functions = compiled(type(vehicle), direction(vehicle))
     random = np.random.default_rng(2)
     points = [{k: float(random.uniform(low, high)) for k, (low, high) in region.items()} for _ in range(10)]
@@ -111,8 +111,8 @@ def test_every_vehicle_gets_a_certificate_that_agrees_with_exact_arithmetic(name
 def test_proofs_reach_the_critical_speed():
     caravan = load("caravan")
     limit = critical(caravan)[0].value
-    assert certify(caravan, {"U": (0.1, limit * (1 - 1e-6))}).proved
-    beyond = certify(caravan, {"U": (0.1, limit * (1 + 1e-6))})
+    assert certify(caravan, U=(0.1, limit * (1 - 1e-6))).proved
+    beyond = certify(caravan, U=(0.1, limit * (1 + 1e-6)))
     assert beyond.counterexample.values["U"] > limit
     assert beyond.counterexample.eigenvalues[0].real > 0
     assert not beyond
@@ -122,9 +122,9 @@ def test_proofs_reach_the_critical_speed():
 def test_an_island_between_stable_ends_is_found():
     caravan = load("caravan")
     first, second, third = (c.value for c in critical(caravan, "c"))
-    assert certify(caravan, {"c": (first * 1.0001, second * 0.9999)}).proved
-    assert certify(caravan, {"c": (third * 1.0001, third * 1.2)}).proved
-    found = certify(caravan, {"c": (second * 0.9999, third * 1.0001)})
+    assert certify(caravan, c=(first * 1.0001, second * 0.9999)).proved
+    assert certify(caravan, c=(third * 1.0001, third * 1.2)).proved
+    found = certify(caravan, c=(second * 0.9999, third * 1.0001))
     assert second < found.counterexample.values["c"] < third
 
 
@@ -132,11 +132,11 @@ def test_boxes_are_left_when_effort_ends():
     car = find_model("car")(**CLOSED["car"][0])
     limit = critical(car)[0].value
     region = {"m": (1000, 1500), "U": (1, limit)}  # touches the boundary in one corner
-    found = certify(car, region, boxes=20)
+    found = certify(car, **region, boxes=20)
     assert found.state == "undecided"
     assert 0.9 < found.proved_share < 1
     assert found.boxes <= 20
-    more = certify(car, region, boxes=40)
+    more = certify(car, **region, boxes=40)
     assert more.proved_share > found.proved_share
     box = found.undecided
     volume = np.prod((box[:, :, 1] - box[:, :, 0]) / [500, limit - 1], axis=1).sum()
@@ -148,7 +148,7 @@ def test_boxes_are_left_when_effort_ends():
 def test_many_parameters_at_once():
     caravan = load("caravan")
     region = {name: (0.97 * float(x), 1.03 * float(x)) for name, x in caravan.values.items() if name != "U"}
-    found = certify(caravan, {**region, "U": "36:50 km/h"})
+    found = certify(caravan, **(region | {"U": "36:50 km/h"}))
     assert found.proved, found.sentence
 
 
@@ -158,7 +158,7 @@ def test_impossible_vehicles_are_no_counterexamples():
         vehicle = load(name)
         key = next(k for k in vehicle.values if k.startswith("I"))
         now = float(vehicle.values[key])
-        found = certify(vehicle, {key: (0.2 * now, 5 * now)}, boxes=500)
+        found = certify(vehicle, **{key: (0.2 * now, 5 * now)}, boxes=500)
         if found.counterexample:
             assert found.counterexample.vehicle.values[key]  # it could be made
 
@@ -169,7 +169,7 @@ def test_decimals_mean_what_they_say():
     assert exact_range("-36:-3.6 km/h", "m/s", "x") == (-10, -1)
     assert exact_range(("1 t", "2e3"), "kg", "x") == (1000, 2000)
     assert exact_range("1e-999999999:1", "m", "x")[1] == 1
-    found = certify(load("caravan"), {"b": ("0.3", "0.31"), "U": (5, 20)})
+    found = certify(load("caravan"), b=("0.3", "0.31"), U=(5, 20))
     assert found.ranges["b"] == (Fraction(3, 10), Fraction(31, 100))
 
 
@@ -206,14 +206,14 @@ class Shaped(Model):
 )
 def test_poles_touching_boundaries_and_spikes_do_not_fool_it(shape, states):
     model = type("Shape", (Shaped,), {"shape": staticmethod(shape), "__doc__": "Damped."})
-    found = certify(model(m=1, k=1, c=1, p=0.5, q=0.5), {"p": (0, 1), "q": (0, 1)}, boxes=3000)
+    found = certify(model(m=1, k=1, c=1, p=0.5, q=0.5), p=(0, 1), q=(0, 1), boxes=3000)
     assert found.state == states
 
 
 def test_what_cannot_be_enclosed_is_said():
     model = type("Larger", (Shaped,), {"shape": staticmethod(lambda p, q: sp.Max(p, q)), "__doc__": "Damped."})
     with pytest.raises(UcritError, match="contain maximum, whose range cannot be proved"):
-        certify(model(m=1, k=1, c=1, p=0.5, q=0.5), {"p": (0, 1)})
+        certify(model(m=1, k=1, c=1, p=0.5, q=0.5), p=(0, 1))
 
 
 @pytest.mark.parametrize(
@@ -237,9 +237,9 @@ def test_what_cannot_be_enclosed_is_said():
 )
 def test_wrong_regions_are_refused_in_a_sentence(region, message):
     with pytest.raises(UcritError) as caught:
-        certify(load("caravan"), region)
+        certify(load("caravan"), **region)
     assert message in str(caught.value)
     with pytest.raises(UcritError, match="boxes must be a whole number above 0"):
-        certify(load("caravan"), {"m": (1, 2)}, boxes=0)
+        certify(load("caravan"), m=(1, 2), boxes=0)
     with pytest.raises(UcritError, match="one value each for c"):
-        certify(load("caravan").with_(c=[1, 2]), {"m": (1, 2)})
+        certify(load("caravan").with_(c=[1, 2]), m=(1, 2))

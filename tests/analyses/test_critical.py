@@ -161,3 +161,10 @@ def test_a_root_through_infinity():
     assert (found.kind, found.stable, found.frequency_hz) == ("order", "above", 0.0)
     assert found.value == pytest.approx(load("boeing-747").Z_wdot, rel=1e-15)
     assert str(found).endswith("kg: root through infinity of the short period motion, stable above")
+
+
+def test_no_critical_speed_beyond_that_of_light_comes_from_rounding():
+    van = load("vw-vanagon")  # neutral but for the last digits of its coefficients
+    assert not critical(van)
+    assert critical(van).stable_at_lower
+    assert van.a * van.C_f != van.b * van.C_r

@@ -8,8 +8,21 @@ from functools import cache
 import numpy as np
 import pytest
 
-from ucrit import UcritError, basin, check_model, critical, find_model, limit_cycles, load, modes, plot, simulate
+from ucrit import (
+    UcritError,
+    basin,
+    check_model,
+    critical,
+    find_model,
+    limit_cycles,
+    load,
+    modes,
+    param,
+    plot,
+    simulate,
+)
 from ucrit.analyses.nonlinear.cycle_words import expectation
+from ucrit.core import sign, where
 from ucrit.plots import plot_cycles
 
 MODELS = ("nose-gear", "trailer-handling", "caster-handling", "wheelset-flange")
@@ -258,3 +271,52 @@ def test_the_diagram():
 def test_what_makes_no_sense_is_refused(wrong, message):
     with pytest.raises(UcritError, match=message):
         wrong()
+
+
+class CasterBetweenPads(type(load("caster-on-brush-tire"))):
+    """Caster whose fork rubs on pads, beyond a free angle (own derivation, 2026)."""
+
+    bond_graph = equations_bond_graph = None
+    M_0: float = param("N m", "moment of friction", at_least=0)
+    free: float = param("rad", "angle at which the pads begin", at_least=0)
+
+    def forces(self, x, dx):
+        return (*super().forces(x, dx), (-self.M_0 * where(abs(x.theta) > self.free, sign(dx.theta), 0), dx.theta))
+
+
+class CasterWithDryFriction(CasterBetweenPads):
+    """The same with pads all the way (own derivation, 2026)."""
+
+    free = 0.0
+
+    def forces(self, x, dx):
+        return (*super(CasterBetweenPads, self).forces(x, dx), (-self.M_0 * sign(dx.theta), dx.theta))
+
+
+def test_cycles_go_through_dry_friction():
+    """Where the fork begins to touch its pads the branch has a corner; a simulation tells the same amplitude."""
+    values = load("caster-on-brush-tire").values
+    found = limit_cycles(CasterBetweenPads(**values, M_0=3, free=0.02), upper=20)
+    (branch,) = found.branches
+    assert branch.end == "range"
+    (cycle,) = found.at(18)
+    start = dict(zip(branch.states, 1.01 * cycle.states(np.array([0.0]))[:, 0], strict=True))
+    assert late_peak(cycle.vehicle, cycle, "theta", start, 20) == pytest.approx(cycle.amplitude["theta"], rel=1e-4)
+    (before,), (after,) = found.at(16), found.at(16.2)
+    assert before.amplitude["theta"] < 0.02 < after.amplitude["theta"]
+    assert after.multipliers[0].real < before.multipliers[0].real - 0.2  # the friction begins at once
+
+
+def test_friction_on_the_basic_motion_itself_is_refused():
+    values = load("caster-on-brush-tire").values
+    with pytest.raises(UcritError, match="a law jumps on the basic motion itself"):
+        limit_cycles(CasterWithDryFriction(**values, M_0=3))
+
+
+def test_linear_equations_are_refused_before_anything_is_followed():
+    with pytest.raises(UcritError, match="bicycle: the equations are linear, so that there are no limit cycles"):
+        limit_cycles(load("benchmark-bicycle"))
+
+
+def test_equations_without_any_comparison_have_limit_cycles():
+    assert limit_cycles(load("coach-truck-rigid"), lower=44).branches[0].kind == "supercritical"

@@ -12,7 +12,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ucrit import Model, UcritError, coordinate, find_model, load, param, stability_map
+from ucrit import Model, UcritError, coordinate, find_model, load, param, stability_map, sweep
 from ucrit.analyses.linear.modes import eigenvalues, growth
 from ucrit.analyses.stability import judge
 from ucrit.analyses.stability.judge import settle
@@ -103,6 +103,20 @@ def test_exactly_marginal_points_are_not_stable(engine):
     for x, (at, above) in zip(m, flags, strict=True):
         assert above
         assert at == (Fraction(float(x)) * Fraction(0.1) * Fraction(0.3) > Fraction(float(x) * 0.1 * 0.3))
+
+
+@pytest.mark.parametrize(("operations", "count"), [(judge.EXACT_OPERATIONS, 5_000), (1, 100_000)])
+def test_a_long_line_on_the_boundary_is_not_stable(operations, count, monkeypatch):
+    """However few of its points are settled exactly."""
+    monkeypatch.setattr(judge, "EXACT_OPERATIONS", operations)
+    free = find_model("trailer-rigid-tire-undamped")(m=1000, I_c=1500, a=1.5, b=1, k=1e4, U=20)
+    other = find_model("trailer-undamped-hitch")(m=1000, a=1.5, I_c=1500, U=25, C=5e4, b=1, k=1e4)
+    for vehicle in (free, other):
+        found = stability_map(vehicle, b=[1.0, 1.1], k=np.geomspace(1e3, 1e6, count)).stable
+        assert not found[0].any()
+        assert found[1].all()
+    line = sweep(free, k=np.geomspace(1e3, 1e6, 2_000))
+    assert not line.stable.any()
 
 
 class Cascade(Model):
@@ -233,8 +247,6 @@ def test_threads_change_nothing(monkeypatch):
 
 
 def test_margins_are_those_of_a_sweep():
-    from ucrit import sweep
-
     grid = {"c": [0, 2000, 4000], "U": [15, 30]}
     result, expected = stability_map(load("caravan"), margins=True, **grid), sweep(load("caravan"), **grid)
     np.testing.assert_allclose(result.growth, expected.growth, rtol=1e-9)
@@ -260,16 +272,35 @@ def test_no_gpu_is_said():
             kernels.needed("cuda")
 
 
+SIMULATED = """
+import numpy as np
+from ucrit import find_model, load, stability_map
+from ucrit.analyses.stability import device
+from ucrit.core import kernels
+
+kernels.THREADS, device.PIECE = 4, 5
+caravan, truck = load("caravan"), load("coach-truck")
+marginal = find_model("trailer-rigid-tire-undamped")(m=1000, I_c=1500, a=1.5, b=1, k=1e4, U=20)
+U, c = np.array([-20.0, -1, -15, 0.7, 9, 14, 21, 28, 60]), np.geomspace(1, 1e4, 9)
+for device.POINTS, device.ROWS in ((2**28, 2**20), (20, 2), (4, 1)):
+    for vehicle, grid in (
+        (marginal, dict(b=[0.99, 1, 1.01])),
+        (caravan, dict(U=U, c=c)),
+        (caravan, dict(c=c, U=U)),
+        (caravan, dict(U=U)),
+        (caravan, dict(m=[900, 1500], c=[1.0, 4e3], U=U)),
+        (caravan, dict(k=[1e-200, 1e-3, 1e5, 1e200], C=[1e-150, 1e5, 1e150])),
+        (truck, dict(c_s=[0.0, 30, 300, 2e3, 2e4], V=[2.0, 9, 20, 35, 70])),
+    ):
+        one, two = (stability_map(vehicle, engine=e, **grid).stable for e in ("numpy", "cuda"))
+        assert (one == two).all() and one.any() and not one.all(), (vehicle, list(grid), device.POINTS)
+"""
+
+
 def test_the_kernel_for_gpus_in_numbas_simulator():
-    code = (
-        "import numpy as np; from ucrit import load, stability_map\n"
-        "for name, x, y in (('caravan', 'c', 'U'), ('coach-truck', 'c_s', 'V')):\n"
-        "    v = load(name); grid = {n: float(v.values[n])*np.linspace(.3, 3, 7) for n in (x, y)}\n"
-        "    one, two = (stability_map(v, engine=e, **grid).stable for e in ('numpy', 'cuda'))\n"
-        "    assert (one == two).all() and one.any() and not one.all(), name\n"
-    )
+    """Several segments of both axes, both directions of running, and launches of few rows, columns and points."""
     done = subprocess.run(
-        [sys.executable, "-c", code],
+        [sys.executable, "-c", SIMULATED],
         env={**os.environ, "NUMBA_ENABLE_CUDASIM": "1"},
         capture_output=True,
         text=True,
@@ -283,8 +314,9 @@ def test_the_kernel_compiles_for_gpus_that_are_not_there():
     import numba
     from numba import cuda
 
-    row, table = numba.float64[::1], numba.float64[:, ::1]
-    given = (row, row, numba.int64[::1], table, numba.int64, row, numba.uint8[:, ::1])
+    row, table, whole = numba.float64[::1], numba.float64[:, ::1], numba.int64[::1]
+    given = (row, numba.float64[:, :, ::1], whole, whole, table, numba.int64[:, ::1], row)
+    given += (numba.uint8[:, ::1], numba.uint8[::1])
     for name, outer, inner in (("caravan", "c", "U"), ("chain", "k", "c")):
         vehicle = Chain(m=1, k=1, c=0.1, f=0.3) if name == "chain" else load(name)
         names, made = list(vehicle.values), {}

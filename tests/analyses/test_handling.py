@@ -136,3 +136,64 @@ def test_families_are_drawn_with_their_changes(spinning):
     np.testing.assert_allclose(points["change"][0], [change.value, change.values["delta_f"]])
     assert axes.get_xlabel() == "lateral acceleration of the centre of mass $a_{y}$ [m/s²]"
     assert plots.plot(spinning).get_axes()
+
+
+def test_at_a_constant_steer_angle_the_curvature_is_that_of_the_linear_car():
+    """delta/(L + K U^2) (Karnopp 2004, section 6.IV); gentle enough that nothing bends."""
+    car = load("understeering-car")
+    found = handling_diagram(car, angle=1e-3, upto="40 m/s")
+    K = float(steady_turn(car).gradient)
+    np.testing.assert_allclose(found.curvature, 1e-3 / (car.a + car.b + K * found.speed**2), rtol=1e-4)
+    assert (found.speed[0], found.speed[-1]) == pytest.approx((1, 40))
+    np.testing.assert_allclose(found.delta, 1e-3, rtol=1e-9)
+
+
+def test_the_three_tests_tell_one_gradient_and_one_limit(spinning):
+    """On tires alone, which know neither the radius nor the speed."""
+    circle = handling_diagram(spinning.vehicle, radius="300 m")
+    held = handling_diagram(spinning.vehicle, angle="2 deg")
+    np.testing.assert_allclose(circle.curvature, 1 / 300, rtol=1e-9)
+    for found in (circle, held):
+        assert found.limit == "spin"
+        assert found.largest == pytest.approx(spinning.largest, rel=1e-3)
+        assert found.gradient[0] == pytest.approx(spinning.gradient[0], rel=5e-3)  # the wheels are steered already
+        assert [part.kind for part in found.ranges] == ["understeer", "oversteer", "unstable"]
+        below = spinning.a_y < 0.75 * found.largest
+        other = np.interp(
+            spinning.a_y[below], found.a_y[: np.argmax(found.a_y)], found.difference[: np.argmax(found.a_y)]
+        )
+        np.testing.assert_allclose(other, spinning.difference[below], atol=2e-4)
+        axes = plots.plot_handling(found).get_axes()[2]
+        assert axes.get_xlabel() == "lateral acceleration [g]"
+        assert max(map(len, sentences(found))) <= 80
+    assert circle.turns.constant == "radius"
+    assert "on a radius of 300 m, the speed rising" in str(circle)
+    assert "at a steer angle of 2 deg, the speed rising" in str(held)
+
+
+def test_the_drive_keeps_the_speed_that_rises():
+    found = handling_diagram(load("four-wheel-car"), radius=60, upto=15, step=0.2)
+    np.testing.assert_allclose(found.curvature, 1 / 60, rtol=1e-9)
+    np.testing.assert_allclose(found.speed, found.family["v_x"])
+    assert found.speed[-1] == pytest.approx(15)
+
+
+@pytest.mark.parametrize(
+    ("name", "asked", "message"),
+    [
+        ("spinning-car", {"radius": 60, "angle": 0.1}, "either the radius or the steer angle"),
+        ("spinning-car", {"radius": "-3 m"}, "radius must be above 0 m, got -3 m"),
+        ("spinning-car", {"angle": "2 m"}, "steer angle is measured in rad"),
+        ("spinning-car", {"upto": 30}, "upto ends a test with rising speed"),
+        ("spinning-car", {"radius": 60, "upto": 0.5}, "the speed must rise beyond 1 m/s"),
+        ("understeering-car", {"radius": 60}, "a constant radius needs an output curvature"),
+    ],
+)
+def test_tests_that_make_no_sense_are_refused(name, asked, message):
+    with pytest.raises(UcritError, match=message):
+        handling_diagram(load(name), **asked)
+
+
+def test_a_gradient_that_is_rounding_is_told_as_none():
+    assert "    understeer gradient at first 0 rad/(m/s^2) = 0 deg/g" in sentences(handling_diagram(load("bmw-320i")))
+    assert "0.003333 rad/(m/s^2) = 1.873 deg/g" in "\n".join(sentences(handling_diagram(load("spinning-car"))))

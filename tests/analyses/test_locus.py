@@ -102,8 +102,8 @@ def test_another_parameter():
         ({"lower": 5, "upper": 2}, "empty"),
         ({"upper": float("inf")}, "finite"),
         ({"parameter": "m", "lower": -3, "upper": 5}, "above 0 kg, got -3 kg"),
-        ({"points": 1}, "2 points or more, got 1"),
-        ({"points": 2.5}, "2 points or more, got 2.5"),
+        ({"points": 1}, "needs 2 to 10000000 points, got 1"),
+        ({"points": 2.5}, "needs 2 to 10000000 points, got 2.5"),
     ],
 )
 def test_impossible_requests_are_refused(arguments, message):

@@ -66,7 +66,7 @@ TABLES = {
     "settings": lambda v: ucrit.moment_line(dressed("navion-from-geometry"), "delta_e", [-0.02, 0]),
     "remedies": ucrit.remedies,
     "no remedies": lambda v: ucrit.remedies(v, 10),
-    "certify": lambda v: ucrit.certify(v, {"U": (5, 30)}),
+    "certify": lambda v: ucrit.certify(v, U=(5, 30)),
     "cycles": lambda v: shimmy(),
     "branch": lambda v: shimmy().branches[0],
     "cycle": lambda v: shimmy().at(25)[0],
@@ -243,7 +243,7 @@ def test_every_kind_of_result_is_among_them(results):
     tabular = {kind for kind in subclasses(Tabular) if kind.__module__.startswith("ucrit.") and "table" in vars(kind)}
     assert {kind.__name__ for kind in tabular - shown} == {"Tabular", "_Response"}
     functions = [getattr(ucrit, name) for name in ucrit._PUBLIC if inspect.isfunction(getattr(ucrit, name))]
-    returned = {function.__globals__.get(function.__annotations__["return"]) for function in functions}
+    returned = {inspect.unwrap(function).__globals__.get(function.__annotations__["return"]) for function in functions}
     kinds = {kind for kind in returned if getattr(kind, "__module__", "").startswith("ucrit.")}
     assert len(kinds) > 40
     assert {kind.__name__ for kind in kinds if not hasattr(kind, "_repr_html_")} == set()

@@ -155,7 +155,7 @@ def test_dense_output_is_the_motion_at_other_times():
     assert found.at(3)["x"].shape == (1,)
     with pytest.raises(UcritError, match="times must be within 0 s and 10 s, got 11"):
         found.at(11)
-    with pytest.raises(UcritError, match="a batch is known at its times only"):
+    with pytest.raises(UcritError, match="a batch, or a copy, is known at its times only"):
         simulate(mass.with_(m=[1, 2]), 1).at(0.5)
 
 

@@ -38,11 +38,11 @@ def test_every_point_is_steady_and_its_rates_are_those_of_the_curve():
         )
 
 
-def test_a_car_at_the_limit_turns_back_and_diverges():
+def test_a_car_at_the_limit_stays_there_and_diverges():
     car = load("spinning-car")
     turns = steady_family(car, "a_y", 12, free="delta_f", within=INSIDE)
     top = car.rear_mu * car.g
-    assert turns.folds == pytest.approx([top])
+    assert turns.folds == ()  # a brush tire's force stays where it is; nothing turns back
     assert turns["a_y"].max() == pytest.approx(top)
     (change,) = turns.changes
     assert (change.kind, change.frequency_hz) == ("divergence", 0)
@@ -139,3 +139,27 @@ def test_arrays_are_refused_and_names_indexed():
     frame = turns.to_dataframe()
     assert {"a_y", "delta_f", "stable", "eigenvalue_real[1]"} <= set(frame)
     assert frame.attrs["units"]["delta_f"] == "rad"
+
+
+PACEJKA = {"front": "pac2002-235-60r16", "rear": "pac2002-235-60r16", "rear_LMUY": 0.6}
+
+
+@pytest.mark.parametrize(
+    ("along", "to", "tires"), [("a_y", 9, {}), ("curvature", 0.1, {}), ("curvature", 0.1, PACEJKA)]
+)
+def test_a_family_ends_where_tires_have_given_all_they_can(along, to, tires):
+    """On the plateau the car slides ever faster sideways; what rounding does there is no change of stability."""
+    turns = steady_family(load("spinning-car", tires), along, to, free="delta_f")
+    assert len(turns.unstable) < 600
+    assert turns.end.startswith(f"{along} stays at ")
+    assert " while V" in turns.end
+    assert {change.kind for change in turns.changes} == {"divergence"}
+    assert len(turns.changes) == len(set(turns.unstable)) - 1  # each motion that diverges is told once
+    bounded = steady_family(load("spinning-car", tires), along, to, free="delta_f", within=INSIDE)
+    assert bounded.changes[0].value == pytest.approx(turns.changes[0].value, rel=1e-9)
+
+
+def test_a_family_ends_where_the_model_is_no_longer_good():
+    turns = steady_family(load("four-wheel-car"), "delta_f", 0.5, free="drive", hold={"v_x": 27.8}, step=0.2)
+    assert turns.end == "F_fr is at its least, 0"
+    assert turns["F_fr"][-1] == pytest.approx(0, abs=1e-6)

@@ -181,7 +181,10 @@ def test_other_jobs_and_other_folders_are_left_alone(tmp_path):
         ({"c": np.arange(2_000_000), "chunk": 1}, "are allowed: take fewer points, or larger chunks"),
         ({"client": "tcp://127.0.0.1:9"}, "no scheduler answers at 'tcp://127.0.0.1:9'"),
         ({"client": 3}, "client must be a dask.distributed.Client or an address, got 3"),
-        ({"client": "nonsense://x"}, "no scheduler answers at 'nonsense://x'"),
+        (
+            {"client": "nonsense://x:1"},
+            "a scheduler's address is written such as tcp://10.0.0.1:8786, got 'nonsense://x:1'",
+        ),
     ],
 )
 def test_wrong_input_is_refused_in_a_sentence(options, message, tmp_path, monkeypatch):

@@ -1,6 +1,7 @@
 """Distributions of critical speeds: closed forms, one vehicle at a time, and plain random numbers say the same."""
 
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -212,4 +213,25 @@ def test_a_vehicle_without_any_stable_speed_has_no_critical_one(tmp_path):
     path = tmp_path / "falling.toml"
     text = (VEHICLES / "motorcycle-lean.toml").read_text()
     path.write_text(re.sub(r"(?m)^m = (\d+)", r"m = { value = \1, sd = 5 }", text))
-    assert str(uncertainty(load(path), samples=64)) == "unstable at every speed, in 64 cases"
+    vehicle = load(path)
+    assert str(uncertainty(vehicle, samples=64)) == "unstable at every speed in all 64 cases"
+    assert uncertainty(vehicle, samples=64, upto=9).sentence == (
+        "unstable at every speed up to 9 m/s (32.4 km/h) in all 64 cases"
+    )
+    with pytest.raises(UcritError, match="unstable at every speed in all 64 cases: no tolerance has influence"):
+        uncertainty(vehicle, samples=64, indices=True)
+
+
+@pytest.mark.parametrize(
+    ("critical", "upto", "told"),
+    [
+        ([0.0] * 6 + [np.inf] * 2, np.inf, "unstable at every speed in 75 % of all cases; never lost in 25 %"),
+        ([np.inf] * 99 + [1.0], np.inf, "stability is lost at some speed in 1 % of all cases"),
+        ([np.inf] * 99 + [1.0], 20.0, "stability is lost up to 20 m/s (72 km/h) in 1 % of all cases"),
+        ([np.inf] * 8, 20.0, "stability is never lost up to 20 m/s (72 km/h) in all 8 cases"),
+        ([300.0, 400.0], np.inf, "critical speed 300 m/s (1080 km/h) in the middle, "),
+    ],
+)
+def test_distributions_in_words(critical, upto, told):
+    found = uncertainty(load("caravan"), samples=64)
+    assert replace(found, critical=np.array(critical), upto=upto).sentence.startswith(told)

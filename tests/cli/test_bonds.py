@@ -44,7 +44,7 @@ def test_a_graph_is_drawn(run: Run, tmp_path: Path, name: str, start: bytes) -> 
     result = run("bonds", "oscillator", "-o", str(tmp_path / name))
     assert result.exit_code == 0
     assert (tmp_path / name).read_bytes().startswith(start)
-    assert f"The drawing is in {tmp_path / name}".replace("\n", "") in result.stdout.replace("\n", "")
+    assert f"Written to {tmp_path / name}".replace("\n", "") in result.stdout.replace("\n", "")
 
 
 def test_a_file_is_a_model(run: Run, tmp_path: Path) -> None:

@@ -127,6 +127,16 @@ def test_set_and_upto_reach_the_analysis(run: Run) -> None:
         (["sweep", "caravan", "mm=1:2"], "there is no parameter 'mm'; did you mean 'm'?"),
         (["sweep", "caravan", "m=1:2", "--set", "m=3"], "given twice"),
         (["sweep", "caravan", "m=1:2", "-o", "x.xls"], "must end in .csv"),
+        (["map", "caravan", "mm=1:2", "U=3:4"], "there is no parameter 'mm'; did you mean 'm'?"),
+        (["map", "caravan", "c=0:1", "U=3:3"], "the range '3:3' is empty"),
+        (["map", "caravan", "c=0:1", "U=3:4", "--set", "c=1"], "given twice"),
+        (["map", "caravan", "c=0:1:99999", "U=3:4:99999"], "9,999,800,001 points is too large"),
+        (["map", "caravan", "c=0:1:99999", "U=3:4:9999", "--margins"], "margins of 999,890,001 points are too many"),
+        (["map", "caravan", "c=0:1", "U=3:4", "--engine", "nunba"], "did you mean 'numba'?"),
+        (["map", "caravan", "c=0:1", "U=3:4", "m=5:6", "-o", "x.svg"], "drawn over two parameters, got c, U, m"),
+        (["map", "caravan", "c=0:1", "U=3:4", "-o", "x.xls"], "must end in .csv"),
+        (["map", "caravan", "c=0:1:2400", "U=3:4:2400", "-o", "x.csv"], "a map of 5,760,000 points is too large for"),
+        (["map", "caravan", "c=0:1", "U=3:4", "--margins", "-o", "x.zarr"], "has verdicts only"),
         (["boundary", "caravan"], "missing argument"),
         (["boundary", "caravan", "mm=1:2", "U=3:4"], "there is no parameter 'mm'; did you mean 'm'?"),
         (["boundary", "caravan", "m=1:2"], "two or three parameters"),
@@ -258,6 +268,26 @@ def test_sweep_writes_every_format(run: Run, tmp_path: Path) -> None:
     rows = run("sweep", "caravan", "m=1000:1500:3", "U=20,30").stdout
     assert rows == (tmp_path / "out.csv").read_text()
     assert len(rows.splitlines()) == 7
+
+
+def test_map_tells_a_share_and_writes_every_format(run: Run, tmp_path: Path) -> None:
+    ask = ("map", "caravan", "c=0:8000:7", "U=5:50:9")
+    for ending in ("csv", "json", "mat", "nc", "png", "svg"):
+        path = tmp_path / f"out.{ending}"
+        told = run(*ask, "--margins", "-o", path)
+        assert told.exit_code == 0
+        assert path.stat().st_size > 500
+    rows = (tmp_path / "out.csv").read_text().splitlines()
+    stable = sum("True" in row for row in rows[1:])
+    assert len(rows) == 1 + 63
+    assert 0 < stable < 63
+    assert f"{100 * stable / 63:.1f} % of 63 points are stable." in told.stdout
+    assert told.stdout.splitlines()[-2].split()[:3] == ["least", "0", "50"]
+    svg = (tmp_path / "out.svg").read_text()
+    assert 'id="design"' in svg
+    assert run(*ask, "-o", tmp_path / "map.zarr").exit_code == 0
+    assert "Unstable at all 4 points." in run("map", "caravan", "c=0,1", "U=20,50").stdout
+    assert "Stable at all 2 points." in run("map", "caravan", "U=5,6").stdout
 
 
 @pytest.mark.parametrize("shell", ["bash", "zsh", "fish"])

@@ -130,3 +130,13 @@ def test_start_up_time(arguments: tuple[str, ...], limit: float) -> None:
     process(*arguments)
     pairs = [(seconds("-c", "import numpy"), seconds("-c", START, *arguments)) for _ in range(5)]
     assert min(own for _, own in pairs) <= limit * min(numpy for numpy, _ in pairs)
+
+
+def test_too_little_memory_is_one_sentence(capsys: pytest.CaptureFixture[str]) -> None:
+    from ucrit.cli.errors import exit_status
+
+    def greedy() -> None:
+        raise MemoryError
+
+    assert exit_status(greedy) == 2
+    assert capsys.readouterr().err.startswith("ucrit: this takes more memory than there is; take fewer points")

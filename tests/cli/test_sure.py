@@ -21,6 +21,14 @@ def test_uncertainty_is_told_and_written(run, tmp_path):
     assert json.loads((tmp_path / "x.json").read_text())["result"] == "uncertainty"
 
 
+def test_what_does_not_vary_is_told_before_a_picture_is_refused(run, tmp_path):
+    done = run("uncertainty", "caravan", "--samples", 64, "--upto", "20 km/h", "-o", tmp_path / "x.svg")
+    assert done.exit_code == 2
+    assert "Stability is never lost up to 5.556 m/s (20 km/h) in all 64 cases." in done.stdout
+    assert "Stability is first lost below" not in done.stdout
+    assert "there is nothing to draw" in done.stderr
+
+
 def test_indices_are_told(run):
     pytest.importorskip("SALib", reason="needs the extra 'scale'")
     done = run("uncertainty", "caravan", "--samples", 128, "--indices", "--upto", "150 km/h")

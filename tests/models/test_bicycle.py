@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ucrit import critical, load
+from ucrit import critical, load, modes
 from ucrit.analyses.linear.modes import eigenvalues
 from ucrit.analyses.stability.exact import exact_search
 from ucrit.core.derive import symbolic
@@ -46,3 +46,9 @@ def test_two_unstable_real_roots_meet_where_the_weave_begins(bicycle):
     assert not below.imag.any()
     assert np.count_nonzero(above.imag) == 2
     assert above[0].real == pytest.approx(3.78290405129320, abs=1e-6)
+
+
+def test_modes_have_the_names_of_the_field(bicycle):
+    assert [c.mode for c in critical(bicycle)] == ["weave oscillation", "capsize divergence"]
+    assert {mode.name for mode in modes(bicycle)} == {"weave oscillation", "capsize decay", "castering decay"}
+    assert modes(bicycle.with_(U=8)).list()[0].name == "capsize divergence"

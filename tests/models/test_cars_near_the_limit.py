@@ -255,3 +255,19 @@ def test_families_go_through_folds_in_steer_angle_acceleration_curvature_and_spe
     assert turns[along][-1] < 0.9999 * turns[along].max()
     assert turns.stable[0]
     assert not turns.stable[-1]
+
+
+def test_a_wheel_that_comes_to_roll_backward_ends_the_motion():
+    """Tire laws in the tangent of the slip angle turn their sign there."""
+    run = simulate(load("ploughing-car"), 12, inputs={"delta_f": lambda t: 0.17 * t}, tolerance=1e-6)
+    assert run.ended == "rolls backward on its front wheels"
+    assert np.abs(run["alpha_f"]).max() == pytest.approx(np.pi / 2, abs=1e-6)
+
+
+def test_a_sidewall_never_asks_for_more_than_its_tire_has():
+    caster = load("pneumatic-caster-sidewall")
+    most = caster.C * np.pi / 2 / caster.k_s
+    run = simulate(caster, 1, {"z": 1.1 * most}, tolerance=1e-6)
+    assert run.ended == "asks its tire for more than its largest force"
+    assert run.times[-1] == 0
+    assert simulate(caster, 0.1, {"z": 0.9 * most}, tolerance=1e-6).ended == ""

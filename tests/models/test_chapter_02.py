@@ -7,7 +7,7 @@ import sympy as sp
 from agreement import SETS, varied
 from scipy.special import ellipj, ellipk
 
-from ucrit import criteria, find_model, load, modes, simulate, verdict
+from ucrit import analyze, criteria, find_model, load, modes, simulate, verdict
 from ucrit.core.derive import symbolic
 from ucrit.core.trace import trace
 from ucrit.models.car import Car
@@ -265,3 +265,8 @@ def test_satellite_is_a_rigid_body_without_loads():
     expected = [r.xreplace({s: 0 for s in r.free_symbols if s.name in names}) for r in general]
     found = list(by_name(residuals(Satellite)).values())
     assert found == list(by_name(dict(enumerate(expected))).values())
+
+
+def test_a_satellite_wobbles_and_its_spin_stays():
+    assert "the wobble oscillation grows at 9.9 Hz, doubling in 670 s" in analyze(load("explorer-1")).sentence
+    assert [mode.name for mode in modes(load("satellite-largest-axis"))] == ["spin rate", "wobble oscillation"]

@@ -1,5 +1,6 @@
 """Wheelsets and trucks: creep, hunting speed by formula, Routh and eigenvalues, and the kinematic limit."""
 
+import itertools
 import math
 from fractions import Fraction
 
@@ -10,6 +11,7 @@ from agreement import SETS, agree, crossing, varied
 from ucrit import criteria, critical, find_model, load, modes
 from ucrit.checks import check_model
 from ucrit.core.compiled import compiled
+from ucrit.core.motion import motion
 from ucrit.numerics.routh import routh
 from ucrit.parts.creep import contact_velocities, creepage
 
@@ -171,3 +173,19 @@ def test_kinematic_wheelset_has_the_same_frequency():
     V, d, r_0, taper = 20, 0.75, 0.46, 0.05
     kinematic = find_model("wheelset-kinematic")(Psi=taper, r_0=r_0, l=2 * d, Omega=V / r_0)
     assert abs(modes(kinematic).eigenvalues) == pytest.approx(V * math.sqrt(taper / (r_0 * d)), rel=1e-12)
+
+
+def test_rigid_truck_yawed_far_feels_the_velocities_of_its_contact_points():
+    truck, rng = load("coach-truck-rigid").with_(N=0, k_s=0, k_t=0, c_s=0), np.random.default_rng(10)
+    p = truck.values
+    for y, dy, psi, dpsi in rng.uniform(-0.5, 0.5, (5, 4)):
+        ahead, left = np.array([np.cos(psi), np.sin(psi)]), np.array([-np.sin(psi), np.cos(psi)])
+        side_force = yaw_moment = 0
+        for end, side in itertools.product((p["b"], -p["b"]), (1, -1)):
+            x, across = end * ahead + side * p["d"] * left
+            radius = p["r_0"] + side * p["lambda_"] * (y + end * np.sin(psi))
+            slip = np.array([p["V"] - dpsi * across, dy + dpsi * x]) - p["V"] / p["r_0"] * radius * ahead
+            force = -(p["f_x"] * slip @ ahead * ahead + p["f_y"] * slip @ left * left) / p["V"]
+            side_force, yaw_moment = side_force + force[1], yaw_moment + x * force[1] - across * force[0]
+        found = motion(type(truck)).rhs(np.array([y, dy, psi, dpsi]), np.array([]), list(p.values()))
+        assert found[1::2] == pytest.approx([side_force / p["m"], yaw_moment / p["I"]], rel=1e-9)

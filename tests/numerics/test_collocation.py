@@ -35,7 +35,7 @@ def solved(mu, intervals, adaptations=0):
         if number >= len(steps) - adaptations:
             found = found.on(adapted_mesh(found, METRIC.states, intervals))
         guess = Orbit(found.mesh, found.values, found.period, value)
-        result = correct(VAN_DER_POL, guess, Tangent(0 * guess.values, 0.0, 1.0), METRIC)
+        result = correct(VAN_DER_POL, guess, Tangent(0 * guess.values, 0.0, 1.0, 0 * guess.mesh), METRIC)
         found = result.orbit
     return result
 
@@ -79,7 +79,9 @@ def test_the_period_converges_with_order_eight():
 @pytest.mark.parametrize("mu", [0.3, 1.0, 2.0])
 def test_the_multiplier_is_liouvilles(mu):
     found = solved(mu, 60, adaptations=2)
-    (multiplier,), trivial = multipliers(found.monodromy)
+    (multiplier,), trivial = multipliers(
+        found.monodromy, VAN_DER_POL.rates(found.orbit.values[0, :1].T, mu)[:, 0], METRIC.states
+    )
     shares = np.linspace(0, 1, 20001)
     divergence = mu * (1 - found.orbit.at(shares)[0] ** 2)
     assert multiplier == pytest.approx(math.exp(found.orbit.period * np.trapezoid(divergence, shares)), rel=1e-6)
@@ -112,4 +114,4 @@ def test_a_mesh_is_fine_where_the_motion_is_quick():
 def test_no_solution_is_none():
     mesh = np.linspace(0, 1, 11)
     nothing = Orbit(mesh, np.full((10, 5, 2), np.nan), 6.0, 1.0)
-    assert correct(VAN_DER_POL, nothing, Tangent(0 * nothing.values, 0.0, 1.0), METRIC) is None
+    assert correct(VAN_DER_POL, nothing, Tangent(0 * nothing.values, 0.0, 1.0, 0 * nothing.mesh), METRIC) is None

@@ -62,6 +62,23 @@ def test_marginal_matrices_are_not_stable(engine):
     assert stable_matrices(np.zeros((0, 4, 4)), engine).shape == (0,)
 
 
+@pytest.mark.parametrize("engine", ["numpy", "numba"])
+def test_eigenvalues_moved_by_rounding_do_not_decide(engine):
+    """Matrices of exact numbers, far from normal: of a zero, or of nearly marginal ones that coincide."""
+    if engine == "numba":
+        pytest.importorskip("numba")
+    random = np.random.default_rng(5)
+    marginal = np.diag([0.0, -1, -2, -3, -4, -5])
+    stable = -(2.0**-10) * np.eye(6) + np.diag(np.ones(5), 1)
+    for core, expected in ((marginal, False), (stable, True)):
+        lower = [np.tril(random.integers(-3, 4, (6, 6)), -1) + np.eye(6) for _ in range(80)]
+        changes = [L @ np.triu(random.integers(-3, 4, (6, 6)), 1) + L for L in lower]
+        A = np.array([T @ core @ np.rint(np.linalg.inv(T)) for T in changes])
+        assert np.abs(A).max() < 2**30
+        assert (stable_matrices(A, engine) == expected).all()
+    assert not stable_matrices(np.tile(A[:1] - core[0, 0] * np.eye(6), (2000, 1, 1)), engine).any()
+
+
 def test_few_matrices_need_eigenvalues():
     A = np.random.default_rng(0).normal(size=(2000, 8, 8)) / np.sqrt(8) - 0.9 * np.eye(8)
     assert _judged(A)[1].mean() < 0.01

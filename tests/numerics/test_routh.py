@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ucrit.numerics.exact import multiply
-from ucrit.numerics.routh import routh
+from ucrit.numerics.routh import all_decay, routh
 
 SMALL = st.fractions(min_value=-4, max_value=4, max_denominator=4)
 
@@ -132,3 +132,12 @@ def test_roots_at_zero_lie_on_the_axis():
 def test_bad_input_is_refused(bad):
     with pytest.raises(ValueError, match="coefficient"):
         routh(bad)
+
+
+@given(st.lists(st.integers(-3, 9), min_size=1, max_size=9).filter(any), st.integers(1, 4))
+def test_all_decay_is_the_count_of_none(terms, below):
+    for a in (terms, [Fraction(abs(x), below) for x in terms], [0.1 * x for x in terms]):
+        while not a[-1]:
+            a = a[:-1]
+        array = routh(a)
+        assert all_decay(a) == (array.right_half_plane == 0 == array.imaginary_axis)

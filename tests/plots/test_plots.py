@@ -174,6 +174,21 @@ class TestMap:
         with pytest.raises(UcritError, match=r"over two parameters, this one spans U"):
             plots.plot_map(stability_map(caravan, U=[10.0, 20]))
 
+    def test_a_single_value_is_refused(self, caravan):
+        with pytest.raises(UcritError, match=r"a map is drawn over ranges, but U is 10 all over it"):
+            plots.plot_map(stability_map(caravan, U=[10.0, 10], c=[0, 4000]))
+
+    def test_values_in_any_order_give_one_picture(self, caravan):
+        """Also of more values than a picture has columns, and with lines of equal damping."""
+        U, c = np.linspace(5, 40, 1500), np.array([0.0, 2000, 4000, 8000])
+        grids = (U, c), (U[::-1], c[[2, 0, 3, 1]])
+        drawn = [plots.plot_map(stability_map(caravan, U=u, c=k, margins=True)).get_axes()[0] for u, k in grids]
+        paths = [[path.vertices for line in axes.collections for path in line.get_paths()] for axes in drawn]
+        assert len(paths[0]) == len(paths[1])
+        for one, other in zip(*paths, strict=True):
+            np.testing.assert_allclose(one, other)
+        assert "0.10" in [text.get_text() for text in drawn[0].texts]
+
 
 class TestDispatch:
     def test_each_result_gets_its_drawing(self, caravan):

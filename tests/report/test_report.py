@@ -262,11 +262,20 @@ class TestWriting:
         changed = Page(render(analyze(found.vehicle.with_(c=9000)))).words()
         assert 'ucrit.write_report(ucrit.analyze(vehicle), "report.html")' in changed
 
-    @pytest.mark.parametrize("target", ["missing/folder/page.html", "."])
-    def test_a_path_that_cannot_be_written(self, tmp_path, target):
-        with pytest.raises(UcritError, match="cannot be written"):
+    @pytest.mark.parametrize(
+        ("target", "message"),
+        [
+            ("missing/folder/page.html", "cannot be written: No such"),
+            ("folder.html", "cannot be written: it is a folder"),
+            (".", "ending in .html"),
+            ("page.txt", "ending in .html"),
+        ],
+    )
+    def test_a_path_that_cannot_be_written(self, tmp_path, target, message):
+        (tmp_path / "folder.html").mkdir()
+        with pytest.raises(UcritError, match=message):
             write_report(analyze("wheelset-1-in-20"), tmp_path / target)
-        assert list(tmp_path.iterdir()) == []
+        assert [path.name for path in tmp_path.iterdir()] == ["folder.html"]
 
     def test_an_old_page_survives_a_failure(self, tmp_path):
         page = tmp_path / "page.html"

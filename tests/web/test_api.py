@@ -18,7 +18,7 @@ from ucrit import UcritError, load
 from ucrit.analyses.about.listing import template
 from ucrit.catalogue import vehicle_names
 from ucrit.parts.tires.linear import Linear
-from ucrit.web import answers, downloads, motions, routes
+from ucrit.web import answers, beyond, downloads, motions, routes
 from ucrit.web.subject import read_json, read_subject
 
 CARAVAN = {"vehicle": "caravan"}
@@ -222,6 +222,39 @@ def test_what_takes_too_long_or_breaks_is_told_in_a_sentence(
     assert answer.status == 500
     assert b"Traceback" not in answer.content
     assert "IndexError" in capsys.readouterr().err
+
+
+def test_turns_up_to_the_limit_are_pythons(ask: Any) -> None:
+    told = ask("/api/handling", {"vehicle": "spinning-car", "units": "kmh"}).json()
+    found = ucrit.handling_diagram(load("spinning-car"))
+    assert told["told"][0] == "Steady turns at 100 km/h: the car spins: the rear axle saturates first"
+    for name in ("a_y", "front", "rear", "difference", "curvature", "delta", "stable"):
+        assert told[name] == getattr(found, name).tolist()
+    assert not any("-17" in line or "-18" in line for line in beyond.handling(load("bmw-320i"), {})["told"])
+    shown = {name: answers.opened(load(name), {})["turns"] for name in ("spinning-car", "bmw-320i", "caravan")}
+    assert shown == {"spinning-car": True, "bmw-320i": True, "caravan": False}
+    refused = ask("/api/handling", CARAVAN)
+    assert refused.status == 400
+    assert "a handling diagram needs" in refused.json()["error"]
+
+
+def test_limit_cycles_are_pythons(ask: Any, monkeypatch: pytest.MonkeyPatch) -> None:
+    gear = {"vehicle": "nose-gear", "values": {"k": -10, "V": 21}, "units": "kmh"}
+    told = ask("/api/cycles", gear).json()
+    found = ucrit.limit_cycles(load("nose-gear", {"k": -10, "V": 21}))
+    branch = found.branches[0]
+    assert told["told"][0].startswith(f"Straight running is stable below {3.6 * branch.critical.value:.4g} km/h;")
+    assert told["told"][-1] == "psi is the swivel angle."
+    x = [v for piece in told["branches"][0]["pieces"] for v in piece["x"]]
+    y = [v for piece in told["branches"][0]["pieces"] for v in piece["y"]]
+    assert set(x) == {branch.critical.value, *branch.values}
+    assert max(y) == pytest.approx(math.degrees(branch.amplitudes[:, branch.states.index("psi")].max()))
+    calm = ask("/api/cycles", {"vehicle": "ford-escort"}).json()
+    assert calm == {"told": list(ucrit.limit_cycles(load("ford-escort")).sentences), "branches": []}
+    monkeypatch.setattr(beyond, "PATIENCE", 0.0)
+    refused = ask("/api/cycles", gear)
+    assert refused.status == 400
+    assert "ucrit cycles has no such limit" in refused.json()["error"]
 
 
 def test_a_motion_that_goes_on_for_too_long_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:

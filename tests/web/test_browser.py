@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import runpy
 from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
@@ -381,6 +382,39 @@ def test_two_visitors_each_have_their_own_vehicle(open_page: Open) -> None:
         assert eigenvalues(page) == expected(load("caravan").with_(**stored(page)))
     assert stored(one)["m"] == 1200
     assert stored(other)["a"] == 3.7
+
+
+def test_turns_and_limit_cycles_are_asked_where_they_are_looked_at(open_page: Open) -> None:
+    page = open_page("#v=spinning-car")
+    assert page.page.locator("#cycles-card").is_hidden()
+    assert not any(url.endswith(("/api/handling", "/api/cycles")) for url in page.asked)
+    page.page.click("#handling > summary")
+    page.page.wait_for_selector("#handling-key li")
+    assert "the car spins: the rear axle saturates first." in page.text("#handling-said")
+    assert page.page.locator("#axles .line, #curve .line, #steer .line").count() == 6
+    before = page.page.locator("#axles .line").first.get_attribute("d")
+    field(page, "rear_mu").fill("0.5")
+    page.change(lambda: field(page, "rear_mu").press("Enter"))
+    page.page.wait_for_function("old => document.querySelector('#axles .line').getAttribute('d') !== old", arg=before)
+    again = open_page(page.page.evaluate("location.hash"))
+    again.page.wait_for_selector("#handling-key li")
+    assert again.text("#handling-facts") == page.text("#handling-facts")
+    page.visit("#v=caravan-with-stabiliser&open=cycles")
+    page.page.wait_for_selector("#cycles-key li", timeout=60_000)
+    assert page.page.locator("#handling-card").is_hidden()
+    assert page.page.locator("#amplitude .line").count() >= 4
+    assert "A disturbed vehicle may keep oscillating from 22.62 m/s" in page.text("#cycles-facts")
+
+
+def test_the_picture_of_the_page_in_its_description_is_current(open_page: Open) -> None:
+    drawn = runpy.run_path(str(Path(__file__).parents[2] / "docs" / "images" / "app.py"))
+    page = open_page(drawn["LINK"])
+    page.page.set_viewport_size(drawn["SIZE"])
+    drawn["wait"](page.page)
+    page.page.wait_for_function(
+        "(m => m.clientWidth == m.querySelector('svg').clientWidth)(document.getElementById('map'))"
+    )
+    assert drawn["words"](page.page) == drawn["kept"](), "draw it again: python docs/images/app.py"
 
 
 def test_everything_has_a_name_for_those_who_do_not_see_it(open_page: Open) -> None:

@@ -29,7 +29,8 @@ def model_names() -> tuple[str, ...]:
 def find_model(name: str, folder: Path | None = None) -> type[Model]:
     """Return a model class by its catalogue name, from a Python file or from a bond graph's (``"my_graph.bonds"``).
 
-    A file may hold several models: ``"my_model.py:Caster"`` picks one. Relative paths start at ``folder``.
+    Of several models in a file ``"my_model.py:Caster"`` picks one; without that it is the one that derives from the
+    others, if there is such a one. Relative paths start at ``folder``.
     """
     path, _, cls = name.partition(":") if ".py" in name else (name, "", "")
     if path.endswith(BONDS):
@@ -55,15 +56,15 @@ def graph_model(text: str, name: str, where: str) -> type[Model]:
     return model_from_text(text, name, where)
 
 
-def models_in(module: ModuleType) -> list[type[Model]]:
-    """Return the model classes that a module itself defines, last one last."""
+def models_in(module: ModuleType, where: str = "") -> list[type[Model]]:
+    """Return the model classes that a module itself defines, last one last; ``where`` names it in messages."""
     found = [
         value
         for value in vars(module).values()
         if isinstance(value, type) and issubclass(value, Model) and value.__module__ == module.__name__
     ]
     if not found:
-        raise ModelError(f"'{module.__name__}' defines no model: a class derived from ucrit.Model is needed")
+        raise ModelError(f"'{where or module.__name__}' defines no model: a class derived from ucrit.Model is needed")
     return found
 
 
@@ -78,17 +79,24 @@ def models_in_file(path: Path) -> list[type[Model]]:
         spec.loader.exec_module(module)
     except UcritError:
         raise
-    except Exception as error:
+    except (Exception, SystemExit) as error:  # a script's sys.exit() is no reason to end
         line = getattr(error, "lineno", None) or _line_in(error, path)
         at = f" in line {line}" if line else ""
-        raise ModelError(f"'{path}' cannot be run{at}: {type(error).__name__}: {error}") from None
-    return models_in(module)
+        told = f"{type(error).__name__}: {error}"
+        if isinstance(error, ImportError) and "relative import" in told:
+            told += "; in a file of one's own write 'from ucrit.core import ...'"
+        raise ModelError(f"'{path}' cannot be run{at}: {told}") from None
+    return models_in(module, str(path))
 
 
 def _from_file(path: Path, cls: str) -> type[Model]:
     models = {model.__name__: model for model in models_in_file(path)}
     if not cls:
-        return list(models.values())[-1]
+        last = [m for m in models.values() if not any(m in other.__mro__[1:] for other in models.values())]
+        if len(last) > 1:
+            names = ", ".join(m.__name__ for m in last)
+            raise UcritError(f"'{path}' holds {len(last)} models, {names}: pick one, '{path}:{last[-1].__name__}'")
+        return last[0]
     if cls not in models:
         raise UcritError(f"'{path}' has no model '{cls}'{near_match(cls, models)}")
     return models[cls]
@@ -97,7 +105,7 @@ def _from_file(path: Path, cls: str) -> type[Model]:
 def _line_in(error: BaseException, path: Path) -> int | None:
     lines, trace = [], error.__traceback__
     while trace is not None:
-        if trace.tb_frame.f_code.co_filename == str(path):
+        if trace.tb_frame.f_code.co_filename == os.path.abspath(path):
             lines.append(trace.tb_lineno)
         trace = trace.tb_next
     return lines[-1] if lines else None

@@ -54,7 +54,8 @@ def conserved(subject: Subject) -> str:
     for name, expression in named.items():
         if _imbalance(subject, _rate(sp.sympify(expression), traced)):
             raise FailedCheckError(f"the conserved quantity {name} changes along the motion")
-    return f"{len(named)} declared quantities stay constant along the motion"
+    told = "1 declared quantity stays" if len(named) == 1 else f"{len(named)} declared quantities stay"
+    return f"{told} constant along the motion"
 
 
 def _rate(expression: Any, traced: Traced) -> list[Any]:

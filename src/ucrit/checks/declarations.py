@@ -50,4 +50,5 @@ def equations(subject: Subject) -> str:
     """Units agree in every term, unknowns and equations in number, and the basic motion is a solution."""
     for direction in subject.directions:
         subject.system(direction).polynomial  # noqa: B018, deriving is the check
-    return f"{len(subject.traced.residuals)} equations with matching units, solved by the basic motion"
+    count = len(subject.traced.residuals)
+    return f"{count} equation{'s' * (count > 1)} with matching units, solved by the basic motion"

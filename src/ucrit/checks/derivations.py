@@ -15,6 +15,7 @@ from ..core.nonlinear import solve_for_highest
 from ..core.trace import Traced, trace
 from .matching import same_equations
 from .precise import numeric, same_up_to_factor
+from .published import agree
 from .report import FailedCheckError, NotApplicableError
 from .sample import Array
 from .states import States, differs, random_states, stacked
@@ -60,7 +61,7 @@ def published_motion(subject: Subject) -> str:
             if name not in declared.outputs:
                 raise FailedCheckError(f"{entry.where}: the model has no output '{name}'")
             _compare_output(subject, name, entry.formulas(formula, names), entry.where)
-    return f"{len(entries)} published non-linear motions agree"
+    return agree(entries, "non-linear motion")
 
 
 def _compare_motion(subject: Subject, other: Traced, where: str) -> None:

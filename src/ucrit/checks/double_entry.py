@@ -12,7 +12,7 @@ from ..core.errors import near_match
 from .matching import response, same_equations
 from .precise import DIGITS, close, frequencies, numeric, same_up_to_factor
 from .precise import polynomial as value_at
-from .published import Entry
+from .published import Entry, agree
 from .report import FailedCheckError
 from .subject import Subject
 
@@ -28,7 +28,7 @@ def polynomial(subject: Subject) -> str:
         for point in subject.points(entry.where, entry.direction):
             if not same_up_to_factor(derived(point), printed(point)):
                 raise FailedCheckError(f"{entry.where}: the characteristic polynomial is another one")
-    return f"{len(entries)} published polynomials agree"
+    return agree(entries, "polynomial")
 
 
 def matrices(subject: Subject) -> str:
@@ -46,7 +46,7 @@ def matrices(subject: Subject) -> str:
         P = [given.get(key, sp.zeros(*system.P[0].shape)) for key in ("P_0", "P_1", "P_2")]
         if not same_equations(system, P, given.get("Q"), subject.points(entry.where, entry.direction)):
             raise FailedCheckError(f"{entry.where}: the linear equations are others")
-    return f"{len(entries)} published sets of equations agree"
+    return agree(entries, "set of equations", "sets of equations")
 
 
 def state_matrix(subject: Subject) -> str:
@@ -68,7 +68,7 @@ def state_matrix(subject: Subject) -> str:
                 for got, expected, least in zip(found.ravel(), function(point), size, strict=True):
                     if abs(got - float(expected)) > 1e-10 * abs(got) + least:
                         raise FailedCheckError(f"{entry.where}: {key} is another one")
-    return f"{len(entries)} published state matrices agree with the states {', '.join(made.labels)}"
+    return f"{agree(entries, 'state matrix', 'state matrices')} with the states {', '.join(made.labels)}"
 
 
 def _matrix(entry: Entry, key: str, names: Any) -> sp.Matrix:
@@ -100,4 +100,4 @@ def transfer(subject: Subject) -> str:
                 for s, value in zip(nodes, derived(point, nodes), strict=True):
                     if not close(value * value_at(bottom, s), value_at(top, s)):
                         raise FailedCheckError(f"{entry.where}: {name_out}/{name_in} is another transfer function")
-    return f"{len(entries)} published transfer functions agree"
+    return agree(entries, "transfer function")

@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-import tomllib
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from ..core.errors import UcritError, near_match
 from ..core.expressions import parse
-from ..core.files import read_text
+from ..core.files import parse_toml, read_text
 
 #: Keys of every table: those it must have and those it may have.
 TABLES: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {
@@ -52,6 +51,17 @@ class Entry:
         return parse(formulas, names, self.where)
 
 
+def agree(entries: Sequence[Any], one: str, many: str = "") -> str:
+    """Say how many published things agree.
+
+    >>> agree([1], "criterion", "criteria"), agree([1, 2], "polynomial")
+    ('1 published criterion agrees', '2 published polynomials agree')
+    """
+    if len(entries) == 1:
+        return f"1 published {one} agrees"
+    return f"{len(entries)} published {many or one + 's'} agree"
+
+
 def read_published(path: Path) -> dict[str, list[Entry]]:
     """Return the entries of a file of published equations and numbers, by table.
 
@@ -60,10 +70,9 @@ def read_published(path: Path) -> dict[str, list[Entry]]:
     UcritError
         One sentence about the first thing that is wrong; nothing is ignored.
     """
-    try:
-        content = tomllib.loads(read_text(path))
-    except tomllib.TOMLDecodeError as error:
-        raise UcritError(f"{path.name}: not valid TOML: {error}") from None
+    content = parse_toml(read_text(path), path.name)
+    if not content:
+        raise UcritError(f"{path.name}: there is nothing to compare with; write a table such as [[polynomial]]")
     entries: dict[str, list[Entry]] = {}
     for table, items in content.items():
         if table not in TABLES:

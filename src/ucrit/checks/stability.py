@@ -13,7 +13,7 @@ from ..core.codegen import build, generate
 from ..core.compiled import compiled
 from ..core.errors import UcritError, near_match
 from .precise import DIGITS, EQUAL, numeric
-from .published import Entry
+from .published import Entry, agree
 from .report import FailedCheckError, NotApplicableError
 from .sample import SPREAD, Array
 from .states import stacked
@@ -45,7 +45,7 @@ def criterion(subject: Subject) -> str:
             untested.append(f"{entry.where}: all of {COUNT} random vehicles are {'un' * (True not in verdicts)}stable")
     if untested:
         raise NotApplicableError("; ".join(untested))
-    return f"{len(entries)} published criteria agree with the eigenvalues of {COUNT} random vehicles"
+    return f"{agree(entries, 'criterion', 'criteria')} with the eigenvalues of {COUNT} random vehicles"
 
 
 def _agreeing(subject: Subject, entry: Entry, function: Any, spread: float) -> set[bool]:
@@ -113,7 +113,8 @@ def critical(subject: Subject) -> str:
             )
         if not _meets_axis(subject, entry, name):
             raise FailedCheckError(f"{entry.where}: no eigenvalue is on the imaginary axis at this {name}")
-    return f"{len(entries)} published critical values put an eigenvalue on the imaginary axis"
+    told = "1 published critical value puts" if len(entries) == 1 else f"{len(entries)} published critical values put"
+    return f"{told} an eigenvalue on the imaginary axis"
 
 
 def _meets_axis(subject: Subject, entry: Entry, name: str) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import os
 import sys
 from collections.abc import Sequence
 from functools import partial
@@ -20,6 +21,7 @@ COMMANDS = {
     "new": "new",
     "simulate": "simulate",
     "sweep": "sweep",
+    "map": "map",
     "cycles": "cycles",
     "handling": "handling",
     "boundary": "boundary",
@@ -76,6 +78,9 @@ class Cli(click.Group):
         run = partial(super().main, args, prog_name, complete_var, standalone_mode=False, **extra)
         if not standalone_mode:
             return run()
+        if sys.stdout is None or sys.stderr is None:  # closed by who started us
+            nowhere = open(os.devnull, "w")  # noqa: SIM115 - open until the end
+            sys.stdout, sys.stderr = sys.stdout or nowhere, sys.stderr or nowhere
         for stream in (sys.stdout, sys.stderr):
             if hasattr(stream, "reconfigure"):  # what the terminal cannot print shall not stop the rest
                 stream.reconfigure(errors="replace")

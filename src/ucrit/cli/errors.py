@@ -30,6 +30,12 @@ def exit_status(run: Callable[[], Any]) -> int:
         return INTERRUPTED
     except BrokenPipeError:
         return _quiet_end()
+    except OSError as error:  # a full disk behind stdout, a file that vanished
+        _quiet_end()
+        what = f"'{error.filename}': " if error.filename else ""
+        return tell(f"the result cannot be written or read: {what}{error.strerror or error}")
+    except MemoryError:
+        return tell("this takes more memory than there is; take fewer points, or write them to a .zarr store")
     except Exception as error:
         sentence = _sentence(error)
         if sentence is None:
@@ -85,7 +91,7 @@ def _sentence(error: Exception) -> str | None:
 def _hint(error: Exception) -> str:
     """Say what to do about errors that symbols raise, with which a model's equations are run once."""
     told = str(error)
-    if isinstance(error, TypeError) and "to float" in told:
+    if isinstance(error, TypeError) and ("to float" in told or "ufunc" in told):
         return "; equations are run with symbols: take sin, cos, sqrt ... from ucrit.core, not from math or numpy"
     if isinstance(error, TypeError) and "truth value" in told:
         return "; equations are run with symbols: take where(condition, one, other) from ucrit.core instead of 'if'"

@@ -12,6 +12,11 @@ PICTURES = (".png", ".svg", ".pdf")
 Write = Callable[[Any], None]
 
 
+def written(path: str) -> None:
+    """Say where a result has been written."""
+    print(f"Written to {path}")
+
+
 def writer(path: str, *, pictures: tuple[str, ...] = PICTURES, more: Mapping[str, Write] | None = None) -> Write:
     """Return what writes a result into a file; an ending that is not known is refused before anything is computed.
 
@@ -32,13 +37,19 @@ def writer(path: str, *, pictures: tuple[str, ...] = PICTURES, more: Mapping[str
 
 def write_picture(result: Any, path: str) -> None:
     """Draw a result into a file."""
+    from ..plots import plot
+
+    save(plot(result), path)
+
+
+def save(figure: Any, path: str) -> None:
+    """Write a figure into a file."""
     import io
 
     from ..analyses.results.convert import write_whole
-    from ..plots import plot
 
     content = io.BytesIO()
-    plot(result).savefig(content, format=path.rpartition(".")[2].lower(), dpi=150)
+    figure.savefig(content, format=path.rpartition(".")[2].lower(), dpi=150)
     write_whole(path, content.getvalue())
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from ..analyses.results.digits import percent
 from ..analyses.stability.advice import advice
 from ..analyses.stability.criteria import in_words
 from ..analyses.stability.wording import speed_text
@@ -37,7 +38,7 @@ def show_analysis(console: Console, found: Analysis, report: str | None = None) 
     _remedies(page, found)
     if report is not None:
         page.line()
-        page.line(f"The report is in {report}")
+        page.line(f"Written to {report}")
 
 
 def verdict_word(found: Analysis) -> tuple[str, str]:
@@ -180,10 +181,5 @@ def _remedies(page: Page, found: Analysis) -> None:
 def _remedy_cells(remedy: Remedy, found: Analysis) -> list[str]:
     told = advice(remedy, found)
     unit = "" if remedy.unit == "1" else remedy.unit
-    change = "" if told.relative is None else _percent(told.relative)
+    change = "" if told.relative is None else percent(told.relative)
     return [remedy.parameter, told.word, told.text, unit, f"instead of {number(remedy.present, 6)}", change]
-
-
-def _percent(share: float) -> str:
-    digits = 2 if abs(share) < 0.95 or share > 1 else 4  # -99.8 % is not -100 %
-    return f"{'+' if share > 0 else ''}{number(100 * share, digits)} %"

@@ -35,7 +35,7 @@ def show_bonds(console: Console, found: Bonds, drawing: str | None = None) -> No
         page.formula(equation, indent=2)
     if drawing is not None:
         page.line()
-        page.line(f"The drawing is in {drawing}")
+        page.line(f"Written to {drawing}")
 
 
 def _power(found: Bonds) -> str:

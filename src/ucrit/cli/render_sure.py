@@ -25,6 +25,8 @@ def show_uncertainty(console: Console, found: Uncertainty) -> None:
     page.line()
     sentence = found.sentence
     page.paragraph(sentence[:1].upper() + sentence[1:] + ".", "bold")
+    if found.quantile(0.0) == math.inf or (not found.varies and found.as_given == found.critical[0]):
+        return
     page.heading(f"Stability is first lost below ({found.samples} vehicles drawn)")
     rows = [(f"{number(100 * share)} %", _speed(found.quantile(share))) for share in SHARES]
     page.table([*rows, ("as given", _speed(found.as_given))], right=(0,))
@@ -76,5 +78,9 @@ def show_certificate(console: Console, found: Certificate) -> None:
     elif found.state == "undecided":
         page.heading("Left open, the first of them")
         for box in found.undecided[:5]:
-            ends = [f"{name} {low:.8g} to {high:.8g}" for name, (low, high) in zip(found.ranges, box, strict=True)]
+            units = type(found.vehicle).declaration.parameters
+            ends = [
+                f"{name} {low:.8g} to {high:.8g} {units[name].unit}"
+                for name, (low, high) in zip(found.ranges, box, strict=True)
+            ]
             page.paragraph(", ".join(ends), indent=2, hanging=2)

@@ -132,7 +132,7 @@ class Compiled:
     def blocks(self, arguments: Arguments) -> list[Array]:
         """Return L, R, Q, Cw, Cz, D of ``L z = R w + Q u``, ``y = Cw w + Cz z + D u`` as stacked arrays."""
         with np.errstate(all="ignore"):
-            entries = self._matrices(arguments)
+            entries = self._matrices(tuple(map(np.asarray, arguments)))  # whose powers overflow to infinity
         return _stack(entries, self._facts["shapes"], _shape(arguments))
 
     def state_space(self, arguments: Arguments) -> StateSpace:
@@ -153,9 +153,8 @@ class Compiled:
             ) from None
         zw, zu = z[..., : R.shape[-1]], z[..., R.shape[-1] :]
         pick, shift = self._structure
-        A = pick @ zw + shift
-        B = pick @ zu
-        return StateSpace(A, B, Cw + Cz @ zw, D + Cz @ zu)
+        with np.errstate(all="ignore"):
+            return StateSpace(pick @ zw + shift, pick @ zu, Cw + Cz @ zw, D + Cz @ zu)
 
     @cached_property
     def _structure(self) -> tuple[Array, Array]:

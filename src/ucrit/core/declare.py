@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from .errors import ModelError, UcritError
-from .units import Dimension, dimension, to_si
+from .units import Dimension, dimension, of_quantity, to_si
 
 
 @dataclass(frozen=True)
@@ -75,8 +75,11 @@ class Parameter(Quantity):
     def check(self, value: Any, model: str) -> float | np.ndarray[Any, Any]:
         """Return ``value`` in SI units as a float or a 1-D array; raise `UcritError` where it is not allowed."""
         thing = f"{model}: {self.meaning} {self.name}"
+        value = of_quantity(value, self.unit, thing)
+        if getattr(value, "shape", None) == () and hasattr(value, "item"):
+            value = value.item()  # an array of no dimension is a number
         if isinstance(value, str | int | float) or not hasattr(value, "__len__"):
-            number = to_si(value.item() if hasattr(value, "item") else value, self.unit, thing)
+            number = to_si(value, self.unit, thing)
             self._check_bounds(np.asarray(number), thing)
             return number
         try:

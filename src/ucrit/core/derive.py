@@ -8,6 +8,7 @@ from typing import Any
 import sympy as sp
 
 from .codegen import generate, renaming, write
+from .errors import UcritError
 from .linear import LinearSystem, linear_system
 from .model import Model
 from .nonlinear import constraints, solve_for_highest
@@ -20,6 +21,8 @@ _symbolic: Any = cache(linear_system)
 
 def symbolic(model: type[Model], direction: int = 1) -> LinearSystem:
     """Return the linear system of a model in symbols, derived once per process."""
+    if direction not in (1, -1):
+        raise UcritError(f"direction must be 1 (ahead) or -1 (backing up), got {direction!r}")
     found: LinearSystem = _symbolic(model, direction)
     return found
 

@@ -17,8 +17,13 @@ class MissingExtraError(UcritError):
     """A feature needs an optional package that is not installed."""
 
 
+MOST_NAMES = 30
+FIRST_NAMES = 10
+"""Names that are told where none is near: so many of a longer list."""
+
+
 def near_match(name: str, allowed: Iterable[str]) -> str:
-    """Return ``"; did you mean 'x'?"`` for the closest allowed name, or the whole list if none is close.
+    """Return ``"; did you mean 'x'?"`` for the closest allowed name, or those that are allowed if none is close.
 
     >>> near_match("C_ff", ["C_f", "C_r"])
     "; did you mean 'C_f'?"
@@ -29,9 +34,13 @@ def near_match(name: str, allowed: Iterable[str]) -> str:
     """
     from difflib import get_close_matches
 
-    choices = list(allowed)
-    match = get_close_matches(name.lower(), [choice.lower() for choice in choices], n=1, cutoff=0.5)
+    choices, name = list(allowed), str(name)
+    match = get_close_matches(
+        name.lower(), [choice.lower() for choice in choices], n=1, cutoff=0.5 if len(name) < 4 else 0.55
+    )
     if match:
         same = [choice for choice in choices if choice.lower() == match[0]]  # C and c may both be allowed
         return f"; did you mean '{max(same, key=lambda choice: sum(c in name for c in choice))}'?"
+    if len(choices) > MOST_NAMES:
+        return f"; allowed: {', '.join(choices[:FIRST_NAMES])} and {len(choices) - FIRST_NAMES} more"
     return f"; allowed: {', '.join(choices) if choices else 'none'}"

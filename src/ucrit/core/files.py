@@ -61,11 +61,22 @@ def read_text(path: Path) -> str:
     except FileNotFoundError:
         raise UcritError(f"there is no file '{path}'") from None
     except IsADirectoryError:
-        raise UcritError(f"'{path}' is a folder, not a vehicle file") from None
+        raise UcritError(f"'{path}' is a folder, not a file") from None
     except (UnicodeDecodeError, ValueError):
-        raise UcritError(f"'{path}' is not a text file") from None
+        raise UcritError(f"'{path}' is not a text file in UTF-8") from None
     except OSError as error:
         raise UcritError(f"'{path}' cannot be read: {error.strerror or error}") from None
+
+
+def parse_toml(text: str, where: str) -> dict[str, Any]:
+    """Return what a text in TOML holds; raise `UcritError`, naming ``where``, for one that is not valid."""
+    try:
+        return tomllib.loads(text)
+    except RecursionError:
+        raise UcritError(f"{where}: not valid TOML: nested too deeply") from None
+    except ValueError as error:
+        told = str(error) if isinstance(error, tomllib.TOMLDecodeError) else "a number has too many digits"
+        raise UcritError(f"{where}: not valid TOML: {told}") from None
 
 
 def parse_vehicle(
@@ -96,10 +107,7 @@ def parse_vehicle(
     UcritError
         One sentence about the first thing that is wrong; nothing is ignored.
     """
-    try:
-        content = tomllib.loads(text)
-    except (ValueError, RecursionError) as error:  # ValueError: TOML errors, and numbers of 5000 digits
-        raise UcritError(f"{where}: not valid TOML: {error or 'nested too deeply'}") from None
+    content = parse_toml(text, where)
     for key in content:
         if key not in KEYS:
             raise UcritError(f"{where}: there is no entry '{key}'{near_match(key, KEYS)}")
@@ -174,6 +182,8 @@ def write_vehicle(vehicle: Model, model: str | None = None) -> str:
 def vehicle_template(model: type[Model], name: str | None = None, vehicle: Model | None = None) -> str:
     """Return the text of a vehicle file for ``model``; without a vehicle its values are left to fill in."""
     info = vehicle.info if vehicle else None
+    if vehicle and vehicle.dims:
+        raise UcritError(f"a file holds one vehicle: give one value each for {', '.join(vehicle.dims)}")
     made_of = model.ingredients()
     if name and name != made_of["model"]:
         made_of = {key: value for key, value in made_of.items() if key != "graph"} | {"model": name}

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from typing import Any
 
+from .record import Record
+
 LEFT = ' style="text-align:left"'
 
 
@@ -78,7 +80,7 @@ def table(rows: Iterable[Sequence[Any]], head: Sequence[str] = (), caption: Any 
     return f"<table>{title}{f'<thead><tr>{top}</tr></thead>' if head else ''}<tbody>{body}</tbody></table>"
 
 
-class Rich:
+class Rich(Record):
     """A result that a notebook shows as it prints: its text, aligned as in a terminal."""
 
     def _repr_html_(self) -> str:

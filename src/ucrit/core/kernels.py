@@ -27,10 +27,11 @@ ENGINES = ("auto", "numpy", "numba", "cuda")
 STABLE, OPEN = 1, 2
 """Codes that kernels write: stable for sure, and not sure; 0 is unstable for sure."""
 
+THREADS = 128
+"""Threads of a block on a graphics processor."""
 
-def number_of_limits(degree: int) -> int:
-    """Return how many limits a kernel for polynomials of a degree takes."""
-    return degree + 1 if degree != 3 else 4
+CONSTANTS = ("EPS = 2.220446049250313e-16", "TINY = 1e-300")
+"""What the statements of a body name."""
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ class Body:
 
 
 def body(functions: Compiled, inner: int) -> Body:
-    """Return what judges from parameters ``v0, v1, ...`` and limits ``e0, e1, ...``."""
+    """Return what judges from parameters ``v0, v1, ...`` and limits ``e0, e1, ...``; up to degree 4 their inverses."""
     rows = Rows()
     try:
         return _judging(polynomials(functions, inner, rows), rows)
@@ -67,7 +68,7 @@ def _judging(a: list[Polynomial], rows: Rows) -> Body:
     row, point = [*rows.steps, "least, total = math.inf, 0.0"], ["least = lowest"]
     (point if changes else row).append(f"sign = -1.0 if {rows.horner(lead)} < 0.0 else 1.0")
     for i, (polynomial, odd) in enumerate(tests):
-        row.append(f"scale = {'sign' if odd and not changes else '1.0'}/e{i}")
+        row.append(f"scale = {f'sign*e{i}' if odd and not changes else f'e{i}'}")
         names: Polynomial = tuple(c and f"c{i}_{k}" for k, c in enumerate(polynomial))
         row += [f"{name} = {c}*scale" for name, c in zip(names, polynomial, strict=True) if name]
         row += [f"total += abs({name})" for name in names if name]
@@ -115,33 +116,56 @@ def source(functions: Compiled, outer: Sequence[int], inner: int, target: str) -
     outer, inner
         Numbers of the parameters.
     target
-        ``"numba"``: all rows one after the other, and how many points were left open is returned. ``"cuda"``: blocks
-        of threads share the rows in one direction of their grid, and the points of a row in the other.
+        ``"numba"``: all rows one after the other, and how many points were left open is returned. ``"cuda"``: a block
+        of threads takes one row in one piece of it, as `ucrit.analyses.stability.device` lays them out, and rows in
+        which points were left open are marked.
     """
-    degree, graphics = functions.order - functions.structural_zeros, target == "cuda"
+    degree = functions.order - functions.structural_zeros
     fixed = [k for k in range(len(functions.model.declaration.parameters)) if k not in (*outer, inner)]
+    values = [f"v{k} = fixed[{k}]" for k in fixed]
+    at = "kinds[i], pieces[p, 2], " if target == "cuda" else ""
+    limits = [f"e{k} = limits[{at}{k}]" for k in range(degree + 1)]
+    changing = [f"v{k} = outer[i, {column}]" for column, k in enumerate(outer)]
     made = body(functions, inner)
-    lines = ["def kernel(fixed, limits, rows, outer, start, inner, out):"]
-    lines += [] if graphics else ["    count = 0"]
-    lines += [f"    v{k} = fixed[{k}]" for k in fixed]
-    lines += [f"    e{k} = limits[{k}]" for k in range(number_of_limits(degree))]
-    lines += [f"    for i in range({'cuda.blockIdx.x, rows.size, cuda.gridDim.x' if graphics else 'rows.size'}):"]
-    lines += ["        line = out[rows[i], start : start + inner.size]"]
-    lines += [f"        v{k} = outer[i, {column}]" for column, k in enumerate(outer)]
-    lines += [" " * 8 + step for step in made.row]
-    second = ("cuda.blockIdx.y*cuda.blockDim.x + cuda.threadIdx.x", "cuda.gridDim.y*cuda.blockDim.x")
-    points = f"for j in range({second[0]}, inner.size, {second[1]}):" if graphics else "for j in range(inner.size):"
-    point = [f"    {step}" for step in ["x = inner[j]", *made.point]]
-    if graphics:
-        loops = [points, *point, f"    line[j] = {OPEN} if doubt else {STABLE} if sure else 0"]
-    else:  # doubts are rare: rows that have any are gone through again
-        loops = ["doubts = 0", points, *point, "    line[j] = sure", "    doubts += doubt", "if doubts:"]
-        again = ["count += doubts", points, *point, "    if doubt:", f"        line[j] = {OPEN}"]
-        loops += [f"    {step}" for step in again]
-    lines += [" " * 8 + step for step in loops]
-    lines += [] if graphics else ["    return count"]
-    imports = "import math" + ("\n\nfrom numba import cuda" if graphics else "")
-    return "\n".join([imports, "\nEPS = 2.220446049250313e-16\nTINY = 1e-300\n\n", *lines, ""])
+    lines = (_for_graphics if target == "cuda" else _for_processors)([*values, *limits], changing, made)
+    return "\n".join(["import math", *lines, ""])
+
+
+def _for_processors(once: list[str], changing: list[str], made: Body) -> list[str]:
+    points, judged = "for j in range(inner.size):", _indented("x = inner[j]", *made.point)
+    # doubts are rare: rows that have any are gone through again
+    again = ["count += doubts", points, *judged, *_indented("if doubt:", f"    line[j] = {OPEN}")]
+    return [
+        *CONSTANTS,
+        "def kernel(fixed, limits, rows, outer, start, inner, out):",
+        *_indented("count = 0", *once, "for i in range(rows.size):"),
+        *_indented("line = out[rows[i], start : start + inner.size]", *changing, *made.row, by=8),
+        *_indented("doubts = 0", points, *judged, "    line[j] = sure", "    doubts += doubt", by=8),
+        *_indented("if doubts:", *_indented(*again), by=8),
+        "    return count",
+    ]
+
+
+def _for_graphics(once: list[str], changing: list[str], made: Body) -> list[str]:
+    """A thread takes what is dear once for each row, and then points; unsigned indices need no look at their sign."""
+    return [
+        "import numpy as np",
+        "from numba import cuda",
+        *CONSTANTS,
+        f"STEP = np.uint64({THREADS})",
+        "def kernel(fixed, limits, rows, kinds, outer, pieces, inner, out, doubts):",
+        *_indented("i, p = cuda.blockIdx.x, cuda.blockIdx.y", *once, *changing, *made.row),
+        *_indented("row, marked = rows[i], False", "line = out[row]"),
+        *_indented("j, stop = np.uint64(pieces[p, 0] + cuda.threadIdx.x), np.uint64(pieces[p, 1])", "while j < stop:"),
+        *_indented("x = inner[j]", *made.point, by=8),
+        *_indented(f"line[j] = {OPEN} if doubt else {STABLE} if sure else 0", by=8),
+        *_indented("marked = marked | doubt", "j += STEP", by=8),
+        *_indented("if marked:", "    doubts[row] = 1"),
+    ]
+
+
+def _indented(*lines: str, by: int = 4) -> list[str]:
+    return [" " * by + line for line in lines]
 
 
 def needed(engine: str) -> Any:
@@ -159,8 +183,8 @@ def needed(engine: str) -> Any:
     cuda = importlib.import_module("numba.cuda")
     if not cuda.is_available():
         raise UcritError(
-            "the engine 'cuda' needs an NVIDIA GPU with its driver and CUDA libraries, and none is found; "
-            "take engine='numba' or 'numpy'"
+            "the engine 'cuda' needs an NVIDIA GPU, its driver and CUDA libraries (pip install 'numba-cuda[cu12]'); "
+            "none is found: take engine='numba' or 'numpy'"
         )
     return cuda
 

@@ -21,9 +21,10 @@ def lagrange(
 
     Source: L. Meirovitch, Methods of Analytical Dynamics (1970), sections 2.11 and 2.13.
     """
-    kinetic = sp.sympify(call(instance.kinetic_energy, groups))  # type: ignore[attr-defined]
-    potential = sp.sympify(_optional(instance, "potential_energy", groups, 0))
-    forces = list(_optional(instance, "forces", groups, ()))
+    name = type(instance).model_id()
+    kinetic = _expression(call(instance.kinetic_energy, groups), f"{name}.kinetic_energy")  # type: ignore[attr-defined]
+    potential = _expression(_optional(instance, "potential_energy", groups, 0), f"{name}.potential_energy")
+    forces = _pairs(_optional(instance, "forces", groups, ()), f"{name}.forces")
     constraints = [sp.sympify(c) for c in _optional(instance, "constraints", groups, ())]
     multipliers = [sp.Symbol(f"lambda_{i}", real=True) for i in range(1, len(constraints) + 1)]
     forces += list(zip(multipliers, constraints, strict=True))
@@ -36,6 +37,19 @@ def lagrange(
         work = sum((force * sp.diff(sp.sympify(velocity), dq) for force, velocity in forces), start=sp.S.Zero)
         residuals.append(rate - sp.diff(kinetic - potential, position) - work)
     return residuals + constraints, multipliers
+
+
+def _expression(value: Any, where: str) -> Any:
+    if value is None or isinstance(value, str | tuple | list):
+        raise ModelError(f"{where} must return one expression, got {value!r}")
+    return sp.sympify(value)
+
+
+def _pairs(value: Any, where: str) -> list[tuple[Any, Any]]:
+    pairs: list[Any] = list(value) if isinstance(value, list | tuple) else [None]
+    if not all(isinstance(pair, list | tuple) and len(pair) == 2 for pair in pairs):
+        raise ModelError(f"{where} must return a list of pairs, each a force and the velocity along it, got {value!r}")
+    return [(force, velocity) for force, velocity in pairs]
 
 
 def _optional(instance: Model, name: str, groups: dict[str, Names], default: Any) -> Any:

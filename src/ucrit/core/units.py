@@ -10,9 +10,10 @@ import math
 import re
 from fractions import Fraction
 from functools import cache
+from numbers import Real
 from typing import Any, NamedTuple
 
-from .errors import ModelError, UcritError
+from .errors import ModelError, UcritError, near_match
 
 
 class Dimension(NamedTuple):
@@ -90,9 +91,10 @@ def to_si(value: Any, unit: str, thing: str) -> float:
     >>> round(to_si("110 km/h", "m/s", "speed U"), 3)
     30.556
     """
-    if isinstance(value, bool) or not isinstance(value, int | float | str):
+    value = of_quantity(value, unit, thing)
+    if isinstance(value, bool) or not isinstance(value, Real | str):
         raise UcritError(f"{thing} must be a number or a text with a unit, got {value!r}")
-    if isinstance(value, int | float):
+    if isinstance(value, Real):
         return _finite(value, thing)
     match = _TEXT.match(value)
     if match is None:
@@ -105,7 +107,17 @@ def to_si(value: Any, unit: str, thing: str) -> float:
     return _convert(number, text, unit, thing)
 
 
-def _finite(value: float, thing: str) -> float:
+def of_quantity(value: Any, unit: str, thing: str) -> Any:
+    """Return the numbers of a quantity of pint in the coherent SI ``unit``, and anything else as it is."""
+    if not (hasattr(value, "magnitude") and hasattr(value, "units")):
+        return value
+    try:
+        return value.to(unit.replace(" ", "*")).magnitude
+    except Exception:  # of whichever registry the quantity is
+        raise UcritError(f"{thing} is measured in {unit}, got '{value}'") from None
+
+
+def _finite(value: Real, thing: str) -> float:
     try:
         return float(value)
     except OverflowError:
@@ -115,7 +127,9 @@ def _finite(value: float, thing: str) -> float:
 def _convert(number: float, text: str, unit: str, thing: str) -> float:
     import pint
 
-    wrong = UcritError(f"{thing} is measured in {unit}, and {text!r} is not a unit that can be read")
+    wrong = UcritError(
+        f"{thing} is measured in {unit}, and {text!r} is not a unit that can be read{_meant(text, unit)}"
+    )
     if _TOWER.search(text):
         raise wrong
     try:
@@ -128,6 +142,14 @@ def _convert(number: float, text: str, unit: str, thing: str) -> float:
     if not math.isfinite(result):
         raise UcritError(f"{thing} must be finite, got {f'{number:g} {text}'!r}")
     return result
+
+
+def _meant(text: str, unit: str) -> str:
+    """Return what the writer of a text that is no unit may have meant."""
+    if re.match(r",\d", text):
+        return "; the decimal sign is a point"
+    near = near_match(text, [unit, *(name for name, (coherent, _) in COMMON.items() if coherent == unit)])
+    return near if "did you mean" in near else ""
 
 
 @cache

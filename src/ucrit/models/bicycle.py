@@ -5,6 +5,8 @@ Everything is of first order in roll and steer. A force or rate of momentum coun
 that the wheels allow: roll, and steer with the yaw that keeps the front contact on its course.
 """
 
+from types import MappingProxyType
+
 from ..core import Drawing, Model, coordinate, cos, param, sin, speed
 from ..parts.shapes import leaning
 
@@ -40,6 +42,16 @@ class Bicycle(Model):
 
     phi = coordinate("rad", "roll angle of the rear frame", motion="roll")
     delta = coordinate("rad", "steer angle of the handlebar", motion="steer")
+
+    mode_names = MappingProxyType(
+        {
+            "roll oscillation": "weave oscillation",
+            "steer oscillation": "weave oscillation",
+            "roll decay": "capsize decay",
+            "roll divergence": "capsize divergence",
+            "steer decay": "castering decay",
+        }
+    )
 
     def bodies(self):
         """Position, mass, inertia tensor, spin momentum per speed and whether it steers, of each body."""

@@ -1,10 +1,14 @@
 """Axes: x forward, y to the right, z down, fixed to the body; r positive to the right. SI units and radians.
 
 Two tires carry each axle and share its load, which does not change: the car has no height. Slip angles are those of
-the contact points to the wheels' planes; steer angles are positive to the right.
+the contact points to the wheels' planes; steer angles are positive to the right. Beyond a right angle a wheel rolls
+backward, where tire laws do not hold; a motion ends there.
 """
 
-from ..core import Drawing, Model, cos, input, output, param, slot, speed, state
+import math
+from types import MappingProxyType
+
+from ..core import Drawing, Model, cos, event, input, output, param, slot, speed, state
 from ..parts.shapes import car
 from ..parts.tires import slip_angle
 from ..parts.tires.brush import Brush
@@ -33,6 +37,8 @@ class CarHandling(Model):
     beta = output("rad", "sideslip angle of the centre of mass")
     alpha_f = output("rad", "slip angle of the front axle")
     alpha_r = output("rad", "slip angle of the rear axle")
+
+    valid = MappingProxyType(dict.fromkeys(("alpha_f", "alpha_r"), (-1.57, 1.57)))  # just short of a right angle
 
     def slip_angles(self, x, u):
         front = slip_angle(x.V + self.a * x.r, self.U) - u.delta_f
@@ -70,6 +76,14 @@ class CarHandling(Model):
             "beta": slip_angle(x.V, self.U),
             "alpha_f": front,
             "alpha_r": rear,
+        }
+
+    def events(self, x, u):
+        return {
+            f"rolls backward on its {place} wheels": event(
+                math.pi / 2 - abs(slip), when="falling", ends=True, from_start=True
+            )
+            for place, slip in zip(("front", "rear"), self.slip_angles(x, u), strict=True)
         }
 
     def drawing(self, x, u):

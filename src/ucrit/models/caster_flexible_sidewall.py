@@ -1,10 +1,13 @@
 """Axes and signs as in the caster; z is positive when the rim is to the left of the tread. SI units.
 
-The tread's contact patch has no mass: its side force at its own slip angle is the sidewall's force -k_s z.
+The tread's contact patch has no mass: its side force at its own slip angle is the sidewall's force -k_s z. That force
+asks for a slip angle of k_s z/C, which must be less than a right angle; a motion ends where it is not.
 """
 
+import math
+
 from ..bondgraph import equations_bond_graph, running_gear
-from ..core import param, state, tan
+from ..core import event, param, state, tan
 from ..parts.tires import linear_side_force, slip_angle
 from .caster import Caster
 
@@ -32,6 +35,12 @@ class CasterFlexibleSidewall(Caster):
             about_pivot + (self.a + self.b) * self.k_s * x.z,
             dx.z - self.deflection_rate(x, dx),
         )
+
+    def events(self, x):
+        spare = self.C * math.pi / 2 - self.k_s * abs(x.z)
+        return {
+            "asks its tire for more than its largest force": event(spare, when="falling", ends=True, from_start=True)
+        }
 
     def tire_bonds(self, at, along):
         def side_force(v):

@@ -31,10 +31,10 @@ class RailTruck(Model):
     c_t: float = param("N m s/rad", "yaw damping between frame and car body", at_least=0)
     V: float = speed("forward speed")
 
-    y_1 = coordinate("m", "lateral displacement of the leading wheelset", motion="leading wheelset")
-    psi_1 = coordinate("rad", "yaw angle of the leading wheelset", motion="leading wheelset yaw")
-    y_2 = coordinate("m", "lateral displacement of the trailing wheelset", motion="trailing wheelset")
-    psi_2 = coordinate("rad", "yaw angle of the trailing wheelset", motion="trailing wheelset yaw")
+    y_1 = coordinate("m", "lateral displacement of the leading wheelset", motion="wheelset")
+    psi_1 = coordinate("rad", "yaw angle of the leading wheelset", motion="wheelset yaw")
+    y_2 = coordinate("m", "lateral displacement of the trailing wheelset", motion="wheelset")
+    psi_2 = coordinate("rad", "yaw angle of the trailing wheelset", motion="wheelset yaw")
     y_f = coordinate("m", "lateral displacement of the frame's centre", motion="frame")
     psi_f = coordinate("rad", "yaw angle of the frame", motion="frame yaw")
 

@@ -50,9 +50,20 @@ class RailTruckRigid(Model):
         )
 
     def wheelset_forces(self, x, dx, ahead):
-        y, dy = x.y + ahead * sin(x.psi), dx.y + ahead * dx.psi * cos(x.psi)
-        velocities = contact_velocities(self.V, y, x.psi, dy, dx.psi, self.d, self.r_0, self.lambda_)
-        return creep_forces(self.V, velocities, self.f_x, self.f_y)
+        y = x.y + ahead * sin(x.psi)
+        points = contact_velocities(self.V, y, x.psi, dx.y, dx.psi, self.d, self.r_0, self.lambda_)
+        turned = ((along, across + ahead * dx.psi) for along, across in points)
+        return creep_forces(self.V, tuple(turned), self.f_x, self.f_y)
+
+    def equations_newton(self, x, dx, ddx):
+        Y = -self.k_s * x.y - self.c_s * dx.y
+        M = 4 * self.N * self.lambda_ * self.d * x.psi - self.k_t * x.psi - self.c_t * dx.psi
+        for ahead in (self.b, -self.b):
+            ((left, _), (across, _), (right, _), _) = self.wheelset_forces(x, dx, ahead)
+            load = -2 * self.N / self.R * (x.y + ahead * sin(x.psi))
+            Y += 2 * across * cos(x.psi) + (left + right) * sin(x.psi) + load
+            M += ahead * (2 * across + load * cos(x.psi)) + self.d * (right - left)
+        return self.m * ddx.y - Y, self.I * ddx.psi - M
 
     def drawing(self, x):
         at = (0, x.y)

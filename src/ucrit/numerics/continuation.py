@@ -32,6 +32,10 @@ BEND = 0.35, 0.01
 BRANCH = 1e-6
 """Length of a step in scaled unknowns below which two curves are taken to cross."""
 
+STANDING, STILL = 1e-4, 1.0
+"""A quantity that moves by less than this share of its usual size per length of the curve stands still; a curve ends
+on which it has done so for this length. (Lengths are shares of the way gone, so that little is still to come.)"""
+
 
 Test = Callable[[Point], float]
 
@@ -56,7 +60,8 @@ class Curve:
     crossings
         Where test functions change sign, in order; those named ``"branch"`` are branch points.
     end
-        ``"closed"``, ``"points"`` (as many as allowed), ``"failed"``, or the name of the stop that ended it.
+        ``"closed"``, ``"still"`` (what was to move does no more), ``"points"`` (as many as allowed), ``"failed"``, or
+        the name of the stop that ended it.
     reason
         Why it failed, else empty.
     """
@@ -81,6 +86,7 @@ def follow(
     scale: Array | float = 1.0,
     tests: Mapping[str, Test] | None = None,
     stops: Mapping[str, Callable[[Array], float]] | None = None,
+    moves: Test | None = None,
     step: float = 0.02,
     largest: float = 0.1,
     smallest: float = 1e-7,
@@ -99,9 +105,13 @@ def follow(
     scale
         Usual size of each unknown, in which steps are measured; it grows with the way that an unknown has gone.
     tests
-        Functions of a `Point` whose changes of sign are located.
+        Functions of a `Point` whose changes of sign are located. One that cannot tell its sign from rounding gives 0;
+        a sign changes only where it is another one afterwards.
     stops
         Functions of the unknowns that are positive inside; where one is no longer, the curve ends, on it.
+    moves
+        Rate along the curve, in its usual size, of what shall move. Where it vanishes for good the solutions go off
+        to no end (a car on tires that are saturated turns ever faster on one circle), and the curve ends.
     step, largest, smallest
         First, largest and smallest length of a step in scaled unknowns.
     points
@@ -128,7 +138,7 @@ def follow(
     start = np.asarray(start, dtype=float)
     walk = _Walk(function, np.broadcast_to(np.asarray(scale, dtype=float), start.shape).copy())
     walk.begin(start, np.asarray(towards, dtype=float))
-    return walk.go(tests or {}, stops or {}, [step, largest, smallest], points)
+    return walk.go(tests or {}, stops or {}, moves, [step, largest, smallest], points)
 
 
 @dataclass
@@ -144,9 +154,17 @@ class _Walk:
         y, jacobian, _ = solve(self.function, start, along, self.scale)
         self.found.append(Point(y, tangent_at(jacobian, along, self.scale) * self.scale, jacobian))
 
-    def go(self, tests: Mapping[str, Test], stops: Mapping[str, Any], lengths: Sequence[float], points: int) -> Curve:
-        h, largest, smallest = lengths
-        before = {name: test(self.found[0]) for name, test in tests.items()}
+    def go(
+        self,
+        tests: Mapping[str, Test],
+        stops: Mapping[str, Any],
+        moves: Test | None,
+        lengths: Sequence[float],
+        points: int,
+    ) -> Curve:
+        (h, largest, smallest), still = lengths, 0.0
+        signs = {name: test(self.found[0]) for name, test in tests.items()}
+        first = signs
         for name, inside in stops.items():
             if inside(self.found[0].y) <= 0:
                 return self.curve(name)
@@ -171,10 +189,20 @@ class _Walk:
                 h = float(t @ ((new.y - y) / self.scale))
             if crossed:
                 self.crossings.append(Crossing("branch", len(self.found) - 1, new))
-            before = self.look(tests, before, new, h)
+            self.look(tests, signs, new, h)
             self.found.append(new)
+            first = {name: first[name] or sign for name, sign in signs.items()}
+            if closed:
+                self.crossings += [
+                    Crossing(name, len(self.found) - 2, new)
+                    for name, test in tests.items()
+                    if test(new) == 0 > signs[name] * first[name]
+                ]
             if passed or closed:
                 return self.curve(passed or "closed")
+            still = still + h if moves is not None and abs(moves(new)) <= STANDING else 0.0
+            if still >= STILL:
+                return self.curve("still")
             self.scale = np.maximum(self.scale, np.abs(new.y - self.found[0].y))
             h = min(largest, h * min(1.6, max(0.5, 0.5 * TURN / max(turned, 1e-12))))
         return self.curve("points")
@@ -225,16 +253,18 @@ class _Walk:
         same = float(t @ (new.tangent / self.scale)) > 0.5
         return near and same and float(t @ old) < 0 <= float(t @ now)
 
-    def look(self, tests: Mapping[str, Test], before: dict[str, float], new: Point, h: float) -> dict[str, float]:
-        """Locate the tests' changes of sign in a step, in the order in which they come."""
-        now = {name: test(new) for name, test in tests.items()}
+    def look(self, tests: Mapping[str, Test], signs: dict[str, float], new: Point, h: float) -> None:
+        """Locate the tests' changes of sign in a step, in the order in which they come; ``signs`` are the last ones."""
         here = []
         for name, test in tests.items():
-            if before[name] * now[name] < 0 or now[name] == 0 != before[name]:
-                here.append(Crossing(name, len(self.found) - 1, self.locate(test, h)))
+            value = test(new)
+            if value * signs[name] < 0:
+                last = self.found[-1]
+                point = self.locate(test, h) if test(last) != 0 else last
+                here.append(Crossing(name, len(self.found) - 1, point))
+            signs[name] = value or signs[name]
         t, y = self.frame()
         self.crossings += sorted(here, key=lambda c: float(t @ ((c.point.y - y) / self.scale)))
-        return now
 
     def locate(self, test: Test, h: float) -> Point:
         """Return the point within the step ahead at which a test vanishes, by regula falsi (Illinois) and halving.

@@ -15,9 +15,9 @@ import numpy.typing as npt
 
 from . import collocation as co
 from . import orbit as orbits
-from .collocation import Corrected, Field
+from .collocation import Corrected, Field, SlidingError
 from .cycle_points import Branch, Hopf, Point
-from .kinks import kinks, settle
+from .kinks import clear, kinks, settle
 from .orbit import Metric, Orbit, Tangent, norm
 
 Array = npt.NDArray[Any]
@@ -34,6 +34,9 @@ BENT = 1e-3
 CLOSED = 0.3
 """A branch whose cycle has shrunk to this share of the first one ends in an equilibrium."""
 
+ENDLESS, STANDING = 30.0, 1e-6
+"""Growth of cycles during which the parameter has moved by less than this share of its range: a branch without end."""
+
 ROOT_STEPS = 40
 
 
@@ -49,7 +52,8 @@ def _metric(orbit: Orbit, span: float) -> Metric:
 
 
 def _point(field: Field, found: Corrected, metric: Metric, fold: bool = False) -> Point:
-    multipliers, trivial = orbits.multipliers(found.monodromy)
+    x, p = found.orbit.values[0, :1], found.orbit.parameter
+    multipliers, trivial = orbits.multipliers(found.monodromy, field.rates(x.T, p)[:, 0], metric.states)
     error = co.error(field, found.orbit, metric.states)
     return Point(found.orbit, found.tangent, metric, multipliers, trivial, error, fold)
 
@@ -98,7 +102,7 @@ def follow(
         points[-1] = here
         found, step, steps = _advance(field, here, step)
         if found is None:
-            return Branch(tuple(points), "stuck")
+            return Branch(tuple(points), "slides" if steps else "stuck")
         new = _point(field, found, _metric(found.orbit, upper - lower))
         if here.tangent.parameter * new.tangent.parameter < 0:
             turn = locate(field, here, new, lambda found: found.tangent.parameter)
@@ -113,10 +117,23 @@ def follow(
             return Branch(tuple(points), "range")
         if np.all(new.metric.states < small):
             return Branch(tuple(points), "equilibrium")
+        if _endless(points, upper - lower):
+            return Branch(tuple(points), "endless")
         step = min(STEP, step * (1.4 if steps <= 4 else 1.0 if steps <= 7 else 0.7))
         if progress is not None:
             progress(len(points), count)
     return Branch(tuple(points), "count")
+
+
+def _endless(points: list[Point], span: float) -> bool:
+    """Tell whether cycles have grown `ENDLESS` times while the parameter stood still."""
+    last = points[-1]
+    for point in reversed(points):
+        if abs(point.orbit.parameter - last.orbit.parameter) > STANDING * span:
+            return False
+        if np.any(last.metric.states > ENDLESS * point.metric.states):
+            return True
+    return False
 
 
 def _first(field: Field, hopf: Hopf, span: float) -> Point | None:
@@ -129,9 +146,12 @@ def _first(field: Field, hopf: Hopf, span: float) -> Point | None:
     wave = np.real(hopf.vector * np.exp(2j * np.pi * shares[..., None]))
     rest = Orbit(mesh, np.broadcast_to(hopf.state, wave.shape), 2 * np.pi / hopf.omega, hopf.parameter)
     for scale in size * np.array([1.0, 0.1, 0.01, 10.0]):
-        away = Tangent(scale * wave, 0.0, 0.0)
-        guess = orbits.moved(rest, away, 1.0)
-        found = settle(field, guess, away, _metric(guess, span))
+        away = Tangent(scale * wave, 0.0, 0.0, 0 * mesh)
+        guess, away = clear(field, orbits.moved(rest, away, 1.0), away)
+        try:
+            found = settle(field, guess, away, _metric(guess, span))
+        except SlidingError:
+            continue
         if found is not None and abs(found.orbit.period / rest.period - 1) < 0.2:
             return _point(field, found, _metric(found.orbit, span))
     return None
@@ -163,10 +183,12 @@ def _refined(field: Field, point: Point, tolerance: float, number: int) -> Point
         more = int(min(max(1.2 * wanted, 0.7 * count), 2 * count, MOST_INTERVALS))
         if point.error <= tolerance and number % 4:
             return point
-        at_kinks = kinks(field, point.orbit)
-        mesh = orbits.adapted_mesh(point.orbit, point.metric.states, max(more, INTERVALS), at_kinks)
-        tangent = orbits.carried(point.tangent, point.orbit, mesh)
-        found = settle(field, point.orbit.on(mesh), tangent, point.metric)
+        orbit, ahead = clear(field, point.orbit, point.tangent)
+        mesh = orbits.adapted_mesh(orbit, point.metric.states, max(more, INTERVALS), kinks(field, orbit))
+        try:
+            found = settle(field, orbit.on(mesh), orbits.carried(ahead, orbit, mesh), point.metric)
+        except SlidingError:
+            return point
         if found is None:
             return point
         better = _point(field, found, point.metric, point.fold)
@@ -178,16 +200,43 @@ def _refined(field: Field, point: Point, tolerance: float, number: int) -> Point
 
 
 def _advance(field: Field, here: Point, step: float) -> tuple[Corrected | None, float, int]:
-    """Return the next solution along a branch, the step that led to it and Newton's steps."""
+    """Return the next solution along a branch, the step that led to it and Newton's steps.
+
+    Where there is none, the last number tells whether that is because the motion would slide along a jump of a law.
+    """
     widths, metric = here.orbit.widths, here.metric
     ahead = orbits.scaled(here.tangent, 1 / norm(here.tangent, widths, metric))
+    slides = 0
     while step > SMALLEST_STEP:
-        found = settle(field, orbits.moved(here.orbit, ahead, step), ahead, metric)
+        try:
+            found, slides = settle(field, orbits.moved(here.orbit, ahead, step), ahead, metric), 0
+        except SlidingError:
+            found, slides = None, 1
         least = TURN if step > CORNER else 0.0
         if found is not None and _cosine(found, here.orbit, ahead, metric) > least:
             return found, step, found.steps
         step /= 2
-    return None, step, 0
+    found = _round_corner(field, here)
+    return found, STEP / 10, slides if found is None else found.steps
+
+
+def _round_corner(field: Field, here: Point) -> Corrected | None:
+    """Return a solution a little farther in the parameter, where no step along the old direction leads to one.
+
+    Where a cycle begins to touch a jump, its size and what it does may change at any rate.
+    """
+    if field.switches is None or not here.tangent.parameter:
+        return None
+    sense = float(np.sign(here.tangent.parameter))
+    ahead = Tangent(0 * here.orbit.values, 0.0, sense, 0 * here.orbit.mesh)
+    for share in (1e-1, 1e-2, 1e-3, 1e-4):
+        try:
+            found = settle(field, orbits.moved(here.orbit, ahead, share * here.metric.parameter), ahead, here.metric)
+        except SlidingError:
+            continue
+        if found is not None:
+            return found
+    return None
 
 
 def _cosine(found: Corrected, orbit: Orbit, ahead: Tangent, metric: Metric) -> float:
@@ -200,9 +249,13 @@ def _cosine(found: Corrected, orbit: Orbit, ahead: Tangent, metric: Metric) -> f
 
 def between(field: Field, a: Point, b: Point, share: float) -> Corrected | None:
     """Return the solution at a share of the way from one point of a branch to its neighbour."""
-    other = b.orbit.on(a.orbit.mesh)
-    chord = Tangent(other.values - a.orbit.values, other.period - a.orbit.period, other.parameter - a.orbit.parameter)
-    return settle(field, orbits.moved(a.orbit, chord, share), chord, a.metric)
+    other = b.orbit.on(a.orbit.mesh, a.orbit.phase)
+    period, parameter = other.period - a.orbit.period, other.parameter - a.orbit.parameter
+    chord = Tangent(other.values - a.orbit.values, period, parameter, 0 * a.orbit.mesh)
+    try:
+        return settle(field, orbits.moved(a.orbit, chord, share), chord, a.metric)
+    except SlidingError:
+        return None
 
 
 def locate(field: Field, a: Point, b: Point, miss: Callable[[Corrected], float]) -> Point | None:
@@ -235,11 +288,20 @@ def locate(field: Field, a: Point, b: Point, miss: Callable[[Corrected], float])
 def at_parameter(field: Field, a: Point, b: Point, value: float) -> Point | None:
     """Return the periodic solution at a value of the parameter between those of two neighbours."""
     near = locate(field, a, b, lambda found: found.orbit.parameter - value)
-    if near is None:
-        return None
-    exact = replace(near.orbit, parameter=value)
-    only = Tangent(np.zeros_like(exact.values), 0.0, 1.0)
-    found = settle(field, exact, only, near.metric)
-    if found is None or abs(found.orbit.period / exact.period - 1) > 1e-6:
+    if near is None:  # a corner between them: the solution is like that of one of them
+        return next((found for found in (_kept(field, b, value), _kept(field, a, value)) if found), None)
+    found = _kept(field, near, value)
+    if found is None or abs(found.orbit.period / near.orbit.period - 1) > 1e-6:
         return replace(near, fold=False)
-    return replace(_point(field, found, near.metric), tangent=near.tangent)
+    return replace(found, tangent=near.tangent)
+
+
+def _kept(field: Field, near: Point, value: float) -> Point | None:
+    """Return the periodic solution at a value of the parameter that is found from a point beside it."""
+    guess = replace(near.orbit, parameter=value)
+    only = Tangent(np.zeros_like(guess.values), 0.0, 1.0, 0 * guess.mesh)
+    try:
+        found = settle(field, guess, only, near.metric)
+    except SlidingError:
+        return None
+    return None if found is None else _point(field, found, near.metric)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,10 @@ import numpy.typing as npt
 from .orbit import Metric, Orbit, Tangent
 
 Array = npt.NDArray[Any]
+
+
+ROUNDING = 1e-9
+"""Multipliers nearer to the unit circle than this may be on either side of it."""
 
 
 @dataclass(frozen=True)
@@ -52,20 +55,26 @@ class Point:
 
     @property
     def stable(self) -> bool:
-        """Whether all neighbouring motions come to the cycle."""
-        return not self.unstable
+        """Whether all multipliers are inside the unit circle, by more than their error."""
+        return bool(np.all(np.abs(self.multipliers) < 1 - self.unsure))
 
     @property
-    def unstable(self) -> int:
-        """Number of multipliers outside the unit circle."""
-        return int(np.sum(np.abs(self.multipliers) > 1))
+    def unstable(self) -> int | None:
+        """Number of multipliers outside the unit circle; ``None`` where one is on it as far as can be told."""
+        size = np.abs(self.multipliers)
+        return None if np.any(np.abs(size - 1) <= self.unsure) else int(np.sum(size > 1))
+
+    @property
+    def unsure(self) -> float:
+        """Error of the multipliers: what the trivial one has, and no less than rounding."""
+        return 10 * self.trivial + ROUNDING
 
 
 @dataclass(frozen=True)
 class Branch:
     """Periodic solutions in the order in which they were found, and why the last one is the last.
 
-    ``end`` is ``"range"``, ``"equilibrium"``, ``"large"``, ``"stuck"`` or ``"count"``.
+    ``end`` is ``"range"``, ``"equilibrium"``, ``"large"``, ``"endless"``, ``"slides"``, ``"stuck"`` or ``"count"``.
     """
 
     points: tuple[Point, ...]
@@ -81,15 +90,18 @@ class Branch:
         """Other changes of stability than folds: ``"period doubling"``, ``"torus"`` or ``"branching"``, and near which
         value of the parameter.
         """
-        found = []
-        for p, q in pairwise(self.points):
-            if p.unstable == q.unstable or p.fold or q.fold:
+        found: list[tuple[str, float]] = []
+        fold, last, before = False, None, 0
+        for q in self.points:
+            fold, now = fold or q.fold, q.unstable
+            if now is None or q.fold:
                 continue
-            more = max(p, q, key=lambda point: point.unstable)
-            outside = more.multipliers[np.abs(more.multipliers) > 1]
-            crossing = complex(outside[np.argmin(np.abs(outside))])
-            if abs(crossing) - 1 > max(p.trivial, q.trivial):  # nearer to 1 it cannot be told from an error
-                found.append((_event(crossing), 0.5 * (p.orbit.parameter + q.orbit.parameter)))
+            if last is not None and not fold and before != now:
+                more = last if before > now else q
+                outside = more.multipliers[np.abs(more.multipliers) > 1]
+                crossing = complex(outside[np.argmin(np.abs(outside))])
+                found.append((_event(crossing), 0.5 * (last.orbit.parameter + q.orbit.parameter)))
+            last, before, fold = q, now, False
         return tuple(found)
 
 

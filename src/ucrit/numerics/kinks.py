@@ -1,8 +1,9 @@
-"""Kinks of a law along a periodic solution: found where switching values change sign, and put on points of the mesh.
+"""Kinks and jumps of a law along a periodic solution: found where switching values change sign, put on the mesh.
 
-Where the right-hand side is continuous but its slopes jump, collocation keeps its order if every jump is on a point of
-the mesh, and the monodromy matrix needs no correction (R. I. Leine and H. Nijmeijer, Dynamics and Bifurcations of
-Non-Smooth Mechanical Systems (2004), chapter 7: the saltation matrix is then the identity).
+Collocation keeps its order if each of them is on a point of the mesh. Where the rates are continuous but their slopes
+jump, the monodromy matrix needs no correction (R. I. Leine and H. Nijmeijer, Dynamics and Bifurcations of Non-Smooth
+Mechanical Systems (2004), chapter 7: the saltation matrix is then the identity); where the rates jump themselves,
+`collocation.correct` is told so.
 """
 
 from __future__ import annotations
@@ -12,8 +13,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .collocation import Corrected, Field, correct
-from .orbit import PROBES, Metric, Orbit, Tangent, carried
+from .collocation import Corrected, Field, Jump, beside, correct, refuse_sliding
+from .orbit import PROBES, Metric, Orbit, Tangent, begun, carried
 
 Array = npt.NDArray[Any]
 
@@ -21,10 +22,16 @@ ROOT_STEPS = 60
 APART = 1e-7
 """Share of the period within which two kinks are taken as one."""
 
+ROOM = 0.03
+"""Least share of the period between a kink and the period's beginning."""
+
 PLACED = 1e-9
 """Share of the period by which a kink may miss its point of the mesh."""
 
 ROUNDS = 6
+
+JUMPS = 1e-6
+"""Rates that differ on both sides of a point by more than this share of the largest on the orbit jump there."""
 
 
 def kinks(field: Field, orbit: Orbit) -> Array:
@@ -32,22 +39,72 @@ def kinks(field: Field, orbit: Orbit) -> Array:
 
     A kink next to a point of the mesh is at that point.
     """
+    found = _kinks(field, orbit)[0]
+    return found[(found > APART) & (found < 1 - APART)]
+
+
+def clear(field: Field, orbit: Orbit, tangent: Tangent) -> tuple[Orbit, Tangent]:
+    """Return an orbit and a direction that begin far from any kink, so that none comes or goes at the ends."""
+    found = _kinks(field, orbit)[0]
+    if not found.size or min(found[0], 1 - found[-1]) > ROOM:
+        return orbit, tangent
+    away = np.abs(orbit.mesh[:-1, None] - found)
+    return begun(orbit, tangent, int(np.argmax(np.minimum(away, 1 - away).min(axis=1))))
+
+
+def _kinks(field: Field, orbit: Orbit) -> tuple[Array, Array]:
+    """Return the shares of kinks in [0, 1], and the rows of the switching values that vanish there."""
+    none = np.empty(0), np.empty(0, dtype=int)
     if field.switches is None:
-        return np.empty(0)
+        return none
     inside = orbit.mesh[:-1, None] + orbit.widths[:, None] * PROBES[:-1]
-    shares = np.append(inside.ravel(), 1.0)
-    values = field.switches(orbit.at(shares), orbit.parameter)
+    shares, values = _sampled(field, orbit, np.append(inside.ravel(), 1.0))
     which, place = np.nonzero((values[:, :-1] >= 0) != (values[:, 1:] >= 0))
     sound = np.isfinite(values[which, place]) & np.isfinite(values[which, place + 1])
     which, place = which[sound], place[sound]
     if not place.size:
-        return np.empty(0)
+        return none
     ends = shares[place], shares[place + 1]
-    found = np.sort(_roots(field, orbit, which, ends, (values[which, place], values[which, place + 1])))
-    kept = np.concatenate([[True], np.diff(found) > APART]) & (found > APART) & (found < 1 - APART)
-    found = found[kept]
+    found = _roots(field, orbit, which, ends, (values[which, place], values[which, place + 1]))
+    order = np.argsort(found)
+    found, which = found[order], which[order]
+    kept = np.concatenate([[True], np.diff(found) > APART])
+    found, which = found[kept], which[kept]
     nearest = orbit.mesh[np.abs(found[:, None] - orbit.mesh).argmin(axis=1)]
-    return np.asarray(np.where(np.abs(nearest - found) < PLACED, nearest, found))
+    return np.asarray(np.where(np.abs(nearest - found) < PLACED, nearest, found)), which
+
+
+def jumps(field: Field, orbit: Orbit, shares: Array, rows: Array) -> tuple[Jump, ...]:
+    """Return those kinks, which are points of the mesh, at which the rates themselves jump."""
+    found = []
+    size = np.abs(field.rates(orbit.values[:, 1:-1].reshape(-1, orbit.values.shape[2]).T, orbit.parameter)).max(axis=1)
+    for share, row in zip(shares, rows, strict=True):
+        point = int(np.argmin(np.abs(orbit.mesh - share)))
+        if 0 < point < len(orbit.widths):
+            before, after = beside(field, orbit, point)
+            if np.any(np.abs(after - before) > JUMPS * size):
+                found.append(Jump(point, int(row)))
+    return tuple(found)
+
+
+def _sampled(field: Field, orbit: Orbit, shares: Array) -> tuple[Array, Array]:
+    """Return switching values at places, and at those between them where one has just begun to touch zero."""
+    assert field.switches is not None
+    values = field.switches(orbit.at(shares), orbit.parameter)
+    left, here, right = values[:, :-2], values[:, 1:-1], values[:, 2:]
+    a, b = np.diff(shares)[:-1], np.diff(shares)[1:]
+    with np.errstate(all="ignore"):
+        rise, fall = (here - left) / a, (right - here) / b
+        bend = 2 * (fall - rise) / (a + b)
+        slope = (b * rise + a * fall) / (a + b)
+        away = -slope / bend
+        peak = here + away * slope / 2
+        touches = (here * peak <= 0) & (here * left > 0) & (here * right > 0) & (away > -a) & (away < b)
+    if not touches.any():
+        return shares, values
+    rows, places = np.nonzero(touches)
+    shares = np.unique(np.append(shares, shares[places + 1] + away[rows, places]))
+    return shares, field.switches(orbit.at(shares), orbit.parameter)
 
 
 def _roots(field: Field, orbit: Orbit, which: Array, ends: tuple[Array, Array], values: tuple[Array, Array]) -> Array:
@@ -93,19 +150,24 @@ def settle(field: Field, guess: Orbit, along: Tangent, metric: Metric) -> Correc
     """Solve as `correct` does, with the kinks of the law on points of the mesh.
 
     Each round moves the points to where the kinks of the last solution are; the distance that is left falls with its
-    square.
+    square. Raises `SlidingError` where the motion would slide along a jump instead of going through.
     """
     found, last = None, np.inf
     for _ in range(ROUNDS):
-        shares = kinks(field, guess)
+        shares, rows = _kinks(field, guess)
+        inside = (shares > APART) & (shares < 1 - APART)
+        shares, rows = shares[inside], rows[inside]
         left = missed(guess.mesh, shares)
         if found is not None and (left == 0 or left > 0.5 * last):
             return found
         if left:
             mesh = snapped(guess.mesh, shares)
             guess, along = guess.on(mesh), carried(along, guess, mesh)
-        better = correct(field, guess, along, metric)
+        at = jumps(field, guess, shares, rows)
+        better = correct(field, guess, along, metric, at)
         if better is None:
+            if found is None:
+                refuse_sliding(field, guess, metric, at)
             return found
         last = np.inf if found is None else left  # the first guess may have been near by chance
         found, guess = better, better.orbit

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from importlib.util import find_spec
-from math import comb, prod
+from math import comb, lcm, prod
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from .rounded import judged
+from .routh import all_decay
 
 Array = NDArray[np.float64]
 
 _BLOCK = 2048  # matrices handled together, so that they and temporaries stay in the second-level cache
 _COMPILED_PAYS = 100_000
 _EPS = float(np.finfo(float).eps)
+_EXACT_OPERATIONS = 4_000_000  # for the matrices of one call that eigenvalues do not settle: some seconds
 _SWEEPS = 2  # of balancing; by powers of two, hence exact
 
 
@@ -24,7 +27,8 @@ def stable_matrices(A: ArrayLike, engine: str = "auto") -> NDArray[np.bool_]:
 
     The characteristic polynomial of the balanced matrices is computed from their Hessenberg form (I. C. F. Ipsen,
     R. Rehman, SIAM J. Matrix Anal. Appl. 30 (2008) 762-776, for its errors) and judged by Routh's array with error
-    bounds; matrices for which that is not sure are judged by LAPACK's balanced eigenvalues.
+    bounds; matrices for which that is not sure are judged by LAPACK's balanced eigenvalues where their error cannot
+    matter, and exactly for the numbers given where it can.
 
     Parameters
     ----------
@@ -37,8 +41,9 @@ def stable_matrices(A: ArrayLike, engine: str = "auto") -> NDArray[np.bool_]:
     Returns
     -------
     bool array of shape (...)
-        A matrix is not stable if its rightmost eigenvalue lies within rounding of the imaginary axis, or if it holds a
-        number that is not finite.
+        A matrix is not stable if an eigenvalue lies on the imaginary axis, or if it holds a number that is not finite.
+        Of very many that only exact numbers can settle (more than a thousand of order 8) the ones nearest to the axis
+        are settled, and further ones are called not stable.
 
     Raises
     ------
@@ -191,8 +196,31 @@ def _polynomial(H: Array) -> list[Any]:
 
 
 def _by_eigenvalues(matrices: Array) -> NDArray[np.bool_]:
-    """Judge matrices by balanced eigenvalues; one within rounding of the axis does not count as stable."""
-    finite: NDArray[np.bool_] = np.asarray(np.isfinite(matrices).all(axis=(1, 2)))
-    values = np.linalg.eigvals(np.where(finite[:, None, None], matrices, np.eye(matrices.shape[-1])))
-    rounding = 8 * matrices.shape[-1] * _EPS * np.abs(values).max(axis=-1)
-    return np.asarray(finite & (values.real.max(axis=-1) < -rounding))
+    """Judge matrices by eigenvalues whose error cannot matter, and those nearest to the axis by exact numbers."""
+    n = matrices.shape[-1]
+    finite = np.flatnonzero(np.isfinite(matrices).all(axis=(1, 2)))
+    stable = np.zeros(len(matrices), dtype=bool)
+    rates, errors = np.zeros(finite.size), np.zeros(finite.size)
+    for start in range(0, finite.size, _BLOCK):
+        block = slice(start, start + _BLOCK)
+        values, errors[block] = eigenvalues_with_errors(matrices[finite[block]])
+        rates[block] = values.real.max(axis=-1)
+    stable[finite] = rates < -errors
+    near = np.flatnonzero(~(np.abs(rates) > errors))
+    for k in near[np.argsort(np.abs(rates[near]), kind="stable")][: _EXACT_OPERATIONS // n**4]:
+        stable[finite[k]] = all_decay(_exact_polynomial(matrices[finite[k]]))
+    return stable
+
+
+def _exact_polynomial(matrix: Array) -> list[int]:
+    """Return ascending coefficients of det(s - c A) in integers, with c > 0 (U. Le Verrier, D. K. Faddeev)."""
+    numbers = [[Fraction(x) for x in row] for row in matrix.tolist()]
+    common = lcm(*(x.denominator for row in numbers for x in row))
+    A = np.array([[int(x * common) for x in row] for row in numbers], dtype=object)
+    one = np.array([[int(i == j) for j in range(len(A))] for i in range(len(A))], dtype=object)
+    product, found = one, [1]
+    for k in range(1, len(A) + 1):
+        product = A @ product
+        found.append(-sum(product.diagonal().tolist()) // k)
+        product = product + found[-1] * one
+    return found[::-1]

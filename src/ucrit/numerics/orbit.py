@@ -12,6 +12,9 @@ import numpy.typing as npt
 Array = npt.NDArray[Any]
 
 DEGREE = 4
+ALIKE = 1e-3
+"""Multipliers nearer to 1 than this are told apart from the trivial one by its eigenvector."""
+
 GAUSS, GAUSS_WEIGHTS = (
     0.5 * (np.polynomial.legendre.leggauss(DEGREE)[0] + 1),
     0.5 * np.polynomial.legendre.leggauss(DEGREE)[1],
@@ -30,7 +33,8 @@ def _basis(points: Array) -> tuple[Array, Array]:
 
 
 AT_GAUSS, SLOPE_AT_GAUSS = _basis(GAUSS)
-AT_PROBES, SLOPE_AT_PROBES = _basis(PROBES)
+AT_PROBES, _ = _basis(PROBES)
+AT_INNER, SLOPE_AT_INNER = _basis(np.clip(PROBES, 1e-6, 1 - 1e-6))  # on an end a law that jumps has no one value
 TO_POWERS = np.linalg.inv(np.vander(NODES, increasing=True))
 HIGHEST = TO_POWERS[-1]
 
@@ -47,12 +51,15 @@ class Orbit:
         States at the nodes of each interval, shape (N, 5, n); the last node is the next interval's first.
     period, parameter
         Period and value of the parameter.
+    phase
+        Share of the period by which it begins later than the branch's first solution.
     """
 
     mesh: Array
     values: Array
     period: float
     parameter: float
+    phase: float = 0.0
 
     @cached_property
     def widths(self) -> Array:
@@ -78,12 +85,14 @@ class Orbit:
         )
         return least, greatest
 
-    def on(self, mesh: Array) -> Orbit:
-        """Return the same solution on another mesh."""
+    def on(self, mesh: Array, phase: float | None = None) -> Orbit:
+        """Return the same solution on another mesh, and begun at another phase."""
+        later = 0.0 if phase is None else phase - self.phase
         shares = (mesh[:-1, None] + np.diff(mesh)[:, None] * NODES).ravel()
+        shares = np.mod(shares + later, 1) if later else shares
         values = self.at(np.clip(shares, 0, 1)).T.reshape(len(mesh) - 1, DEGREE + 1, -1).copy()
         values[:, -1] = np.roll(values[:, 0], -1, axis=0)
-        return replace(self, mesh=mesh, values=values)
+        return replace(self, mesh=mesh, values=values, phase=self.phase + later)
 
 
 def _peak(states: Array, powers: Array) -> float:
@@ -97,11 +106,12 @@ def _peak(states: Array, powers: Array) -> float:
 
 
 class Tangent(NamedTuple):
-    """Direction of a branch: changes of the values (N, 5, n), the period and the parameter."""
+    """Direction of a branch: changes of the values (N, 5, n), the period, the parameter and the mesh (N + 1,)."""
 
     values: Array
     period: float
     parameter: float
+    mesh: Array
 
 
 class Metric(NamedTuple):
@@ -132,18 +142,31 @@ def norm(tangent: Tangent, widths: Array, metric: Metric) -> float:
 
 def scaled(tangent: Tangent, factor: float) -> Tangent:
     """Return a direction times a number."""
-    return Tangent(tangent.values * factor, tangent.period * factor, tangent.parameter * factor)
+    values, period, parameter, mesh = tangent
+    return Tangent(values * factor, period * factor, parameter * factor, mesh * factor)
 
 
 def carried(tangent: Tangent, orbit: Orbit, mesh: Array) -> Tangent:
     """Return a direction that is given on an orbit's mesh on another one."""
-    return tangent._replace(values=replace(orbit, values=tangent.values).on(mesh).values)
+    values = replace(orbit, values=tangent.values).on(mesh).values
+    return tangent._replace(values=values, mesh=np.interp(mesh, orbit.mesh, tangent.mesh))
+
+
+def begun(orbit: Orbit, tangent: Tangent, point: int) -> tuple[Orbit, Tangent]:
+    """Return an orbit and a direction begun at a point of the mesh."""
+    ahead, behind = slice(point, None), slice(1, point + 1)
+    mesh = np.concatenate([orbit.mesh[ahead], orbit.mesh[behind] + 1]) - orbit.mesh[point]
+    shift = np.concatenate([tangent.mesh[ahead], tangent.mesh[behind]]) - tangent.mesh[point]
+    values, changes = (np.roll(part, -point, axis=0) for part in (orbit.values, tangent.values))
+    phase = orbit.phase + float(orbit.mesh[point])
+    return replace(orbit, mesh=mesh, values=values, phase=phase), tangent._replace(values=changes, mesh=shift)
 
 
 def moved(orbit: Orbit, tangent: Tangent, step: float) -> Orbit:
-    """Return the orbit moved along a direction on the same mesh."""
+    """Return the orbit moved along a direction."""
     return replace(
         orbit,
+        mesh=orbit.mesh + step * tangent.mesh,
         values=orbit.values + step * tangent.values,
         period=orbit.period + step * tangent.period,
         parameter=orbit.parameter + step * tangent.parameter,
@@ -162,6 +185,7 @@ def adapted_mesh(orbit: Orbit, sizes: Array, count: int, kinks: Array | None = N
     ahead, smooth = np.abs(jump).max(axis=1), ~np.isin(orbit.mesh[1:], fixed)
     sides = np.stack([ahead, np.roll(ahead, 1)]), np.stack([smooth, np.roll(smooth, 1)])
     size = np.sum(sides[0], axis=0, where=sides[1]) / np.maximum(sides[1].sum(axis=0), 1)
+    size = np.where(sides[1].any(axis=0), size, np.abs(fourth).max(axis=1) / h)  # alone between two kinks
     monitor = size ** (1 / (DEGREE + 1))
     monitor = np.maximum(monitor, 0.1 * float(np.sum(monitor * h))) + 1e-12
     total = np.concatenate([[0.0], np.cumsum(monitor * h)])
@@ -174,9 +198,19 @@ def adapted_mesh(orbit: Orbit, sizes: Array, count: int, kinks: Array | None = N
     return mesh
 
 
-def multipliers(monodromy: Array) -> tuple[Array, float]:
-    """Return the Floquet multipliers but for the trivial one, largest first, and how far that is from 1."""
+def multipliers(monodromy: Array, rates: Array, sizes: Array) -> tuple[Array, float]:
+    """Return the Floquet multipliers but for the trivial one, largest first, and how far that is from 1.
+
+    Where another one is near 1, the rates where the period begins tell them apart: they are the trivial one's
+    eigenvector, and the others are those of what is left at right angles to it.
+    """
     found = np.linalg.eigvals(monodromy)
     trivial = int(np.argmin(np.abs(found - 1)))
-    rest = np.delete(found, trivial)
-    return rest[np.argsort(-np.abs(rest), kind="stable")], float(abs(found[trivial] - 1))
+    rest, off = np.delete(found, trivial), float(abs(found[trivial] - 1))
+    if np.any(np.abs(rest - 1) < ALIKE):
+        scaled, along = monodromy * (sizes / sizes[:, None]), rates / sizes
+        along = along / np.linalg.norm(along)
+        frame, _ = np.linalg.qr(np.column_stack([along, np.eye(len(along))]))
+        rest = np.linalg.eigvals(frame[:, 1:].T @ scaled @ frame[:, 1:])
+        off = float(np.linalg.norm(scaled @ along - along))
+    return rest[np.argsort(-np.abs(rest), kind="stable")], off

@@ -15,6 +15,8 @@ from ..core.errors import UcritError, near_match
 from . import labels, style
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from ..analyses.nonlinear.cycle import CycleBranch
     from ..analyses.nonlinear.cycles import LimitCycles
 
@@ -60,15 +62,18 @@ def plot_cycles(found: LimitCycles, *, state: str | None = None, figure: Any = N
         )
     variable, order = declared.variables[name.rstrip("'")], name.count("'")
     column = first.states.index(name)
-    factor, unit = _shown(variable.state_unit(order), max(b.amplitudes[:, column].max() for b in found.branches))
+    factor, unit = shown(variable.state_unit(order), max(b.amplitudes[:, column].max() for b in found.branches))
     parameter = declared.parameters[found.parameter]
     with style.settings():
         fig = figure or style.new_figure(height=3.4)
         axes = fig.subplots()
-        left, right = _window(found)
-        _straight(axes, found, left, right)
+        left, right = window(found)
+        for low, high, stable in straight(found, left, right):
+            axes.plot([low, high], [0, 0], color=style.INK, linewidth=1.9, linestyle="-" if stable else UNSTABLE_DASH)
         for number, branch in enumerate(found.branches):
-            _branch(axes, branch, factor * branch.amplitudes[:, column], style.colour(number))
+            for x, y, stable in pieces(branch, factor * branch.amplitudes[:, column]):
+                dash = "-" if stable else UNSTABLE_DASH
+                axes.plot(x, y, color=style.colour(number), linewidth=1.9, linestyle=dash)
         top = factor * max(b.amplitudes[:, column].max() for b in found.branches)
         axes.set_xlim(left, right)
         axes.set_ylim(-0.03 * top, 1.08 * top)
@@ -83,31 +88,31 @@ def plot_cycles(found: LimitCycles, *, state: str | None = None, figure: Any = N
     return fig
 
 
-def _shown(unit: str, largest: float) -> tuple[float, str]:
+def shown(unit: str, largest: float) -> tuple[float, str]:
     """Return factor and unit for the axis: degrees for angles, millimetres for short lengths."""
     if unit.startswith("rad"):
         return 180 / math.pi, "deg" + unit[3:]
     return (1e3, "mm") if unit == "m" and largest < 0.1 else (1.0, unit)
 
 
-def _window(found: LimitCycles) -> tuple[float, float]:
+def window(found: LimitCycles) -> tuple[float, float]:
+    """Return the values of the parameter between which the branches are drawn."""
     values = np.concatenate([branch.values for branch in found.branches])
     ends = np.array([values.min(), values.max(), *(b.critical.value for b in found.branches)])
     margin = 0.15 * (ends.max() - ends.min()) or 0.1 * abs(ends[0])
     return max(found.lower, float(ends.min() - 1.5 * margin)), min(found.upper, float(ends.max() + margin))
 
 
-def _straight(axes: Any, found: LimitCycles, left: float, right: float) -> None:
-    """Draw straight running: the line at zero."""
+def straight(found: LimitCycles, left: float, right: float) -> Iterator[tuple[float, float, bool]]:
+    """Yield the parts of straight running: from, to, whether it is stable."""
     edges = [left, *(c.value for c in found.critical if left < c.value < right), right]
     ranges = found.critical.stable_ranges()
     for low, high in pairwise(edges):
-        stable = any(a <= 0.5 * (low + high) <= b for a, b in ranges)
-        axes.plot([low, high], [0, 0], color=style.INK, linewidth=1.9, linestyle="-" if stable else UNSTABLE_DASH)
+        yield low, high, any(a <= 0.5 * (low + high) <= b for a, b in ranges)
 
 
-def _branch(axes: Any, branch: CycleBranch, size: Array, colour: str) -> None:
-    """Draw the parts of a branch that are stable throughout or unstable throughout."""
+def pieces(branch: CycleBranch, size: Array) -> Iterator[tuple[Array, Array, bool]]:
+    """Yield the parts of a branch that are stable throughout or unstable throughout: values, sizes, which it is."""
     x = np.concatenate([[branch.critical.value], branch.values])
     y = np.concatenate([[0.0], size])
     stable, fold = branch.stable.copy(), np.array([cycle.fold for cycle in branch.cycles])
@@ -118,8 +123,7 @@ def _branch(axes: Any, branch: CycleBranch, size: Array, colour: str) -> None:
     for i in range(1, len(x)):
         last = i == len(x) - 1
         if last or kind[i + 1] != kind[i]:
-            line = "-" if kind[i] else UNSTABLE_DASH
-            axes.plot(x[start : i + 1], y[start : i + 1], color=colour, linewidth=1.9, linestyle=line)
+            yield x[start : i + 1], y[start : i + 1], bool(kind[i])
             start = i
 
 

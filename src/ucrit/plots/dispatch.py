@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from ..core.errors import UcritError
 from .bond_graph import plot_bond_graph
@@ -21,6 +21,9 @@ from .response import plot_frequency_response, plot_time_response
 from .stability_map import plot_map
 from .tire import plot_tire
 from .uncertainty import plot_uncertainty
+
+if TYPE_CHECKING:
+    from matplotlib.figure import FigureBase
 
 
 def _analysis(result: Any, *, figure: Any) -> Any:
@@ -67,7 +70,7 @@ DRAWN: dict[str, tuple[str, Callable[..., Any]]] = {
 """By the name of a result's class: what returns such results, and what draws them."""
 
 
-def plot(result: Any, *, figure: Any = None) -> Any:
+def plot(result: Any, *, figure: FigureBase | None = None) -> Any:
     """Draw a result.
 
     Parameters

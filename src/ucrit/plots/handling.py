@@ -1,4 +1,4 @@
-"""Cars near the limit: axle characteristics, handling curve, and steer angle against curvature."""
+"""Cars near the limit: axle characteristics, handling curve, and what the driver does or the car goes."""
 
 from __future__ import annotations
 
@@ -25,9 +25,10 @@ def plot_handling(found: Handling, *, figure: Any = None) -> Any:
     """Draw a handling diagram.
 
     On the left the lateral acceleration that each axle gives against its slip angle; in the middle the difference of
-    the two slip angles at equal lateral acceleration, the handling curve; on the right the steer angle against the
-    curvature of the path, with the regions of oversteer and instability, and what a neutral car would need. Unstable
-    turns are dashed.
+    the two slip angles at equal lateral acceleration, the handling curve; on the right, with the regions of oversteer
+    and instability, and what a neutral car would do, the steer angle against the curvature of the path (at constant
+    speed), the steer angle against the lateral acceleration (at constant radius), or the curvature against the lateral
+    acceleration (at constant steer angle). Unstable turns are dashed.
 
     Parameters
     ----------
@@ -77,34 +78,41 @@ def _curve(axes: Any, found: Handling) -> None:
     side = {"ha": "center", "va": "bottom", "xycoords": ("axes fraction", "axes fraction")}
     style.label(axes, "oversteer", (0.25, 0.02), **side)
     style.label(axes, "understeer", (0.75, 0.02), **side)
-    axes.legend(frameon=False, fontsize=8.5, loc="center left")
+    left = np.abs(inside.min()) > np.abs(inside.max())
+    axes.legend(frameon=False, fontsize=8.5, loc="center right" if left else "center left")
     axes.set_xlabel("front less rear slip angle [deg]")
 
 
 def _steer(axes: Any, found: Handling) -> None:
-    delta = np.rad2deg(found.delta)
+    """Draw what moves against what the test makes move: see `plot_handling`."""
+    constant, height = found.turns.constant, found.a_y / GRAVITY
+    x = found.curvature if constant == "speed" else height
+    y = found.curvature if constant == "steer angle" else np.rad2deg(found.delta)
     named = set()
     for part in found.ranges:
         if part.kind in REGIONS:
-            low, high = sorted(part.curvature)
+            low, high = sorted(part.curvature if constant == "speed" else np.array(part.a_y) / GRAVITY)
             text = None if part.kind in named else part.kind
             axes.axvspan(low, high, color=REGIONS[part.kind], linewidth=0, zorder=0, gid=part.kind, label=text)
             named.add(part.kind)
-    neutral = _neutral(found) * found.curvature
-    axes.plot(found.curvature, neutral, color=style.MUTED, linewidth=1, linestyle=":", label="neutral", gid="neutral")
-    _by_stability(axes, found.curvature, delta, found.stable, "steer", texts=("", ""))
+    neutral = _neutral(found) * x if constant == "speed" else np.full(len(x), y[0])
+    axes.plot(x, neutral, color=style.MUTED, linewidth=1, linestyle=":", label="neutral", gid="neutral")
+    _by_stability(axes, x, y, found.stable, "steer", texts=("", ""))
     near = found.a_y <= 0.995 * found.largest
-    low, high = float(delta[near].min()), float(delta[near].max())
-    axes.set_ylim(min(low, 0) - 0.15 * (high - low), high + 0.25 * (high - low))
-    axes.set_xlim(0, ROOM * float(found.curvature.max()))
+    low, high = float(y[near].min()), float(y[near].max())
+    low, high = (low, high) if high - low > 1e-3 * abs(high) else (0.5 * low, 1.5 * high)
+    axes.set_ylim(low - 0.15 * (high - low) if low < -1e-6 * high else 0, high + 0.25 * (high - low))
+    axes.set_xlim(0, ROOM * float(x.max()))
     for part, after in zip(found.ranges[:-1], found.ranges[1:], strict=True):
-        at = part.curvature[1]
-        axes.plot([at], [np.interp(at, found.curvature[near], delta[near])], "o", color=style.INK, markersize=4,
+        at = part.curvature[1] if constant == "speed" else part.a_y[1] / GRAVITY
+        axes.plot([at], [np.interp(at, x[near], y[near])], "o", color=style.INK, markersize=4,
                   gid=f"{part.kind}-{after.kind}")  # fmt: skip
     axes.locator_params(axis="x", nbins=4)
     axes.legend(frameon=False, fontsize=8.5, loc="upper left")
-    axes.set_xlabel(f"curvature 1/{labels.math_symbol('R')} [{labels.unit_text('1/m')}]")
-    axes.set_ylabel(f"steer angle {labels.math_symbol(found.steer)} [deg]")
+    curvature = f"curvature 1/{labels.math_symbol('R')} [{labels.unit_text('1/m')}]"
+    angle = f"steer angle {labels.math_symbol(found.steer)} [deg]"
+    axes.set_xlabel(curvature if constant == "speed" else "lateral acceleration [g]")
+    axes.set_ylabel(curvature if constant == "steer angle" else angle)
 
 
 def _neutral(found: Handling) -> float:

@@ -6,6 +6,8 @@ import math
 import re
 import unicodedata
 
+from ..analyses.results import digits as written
+
 GREEK = (
     *(
         "alpha",
@@ -127,14 +129,9 @@ def quantity(value: float, unit: str, digits: int = 4) -> str:
 
 
 def percent(share: float) -> str:
-    """Return a relative change as a signed percentage.
+    """Return a relative change as the page's other numbers are set: a true minus, a space that does not break.
 
-    >>> percent(0.0275).split(), percent(1234.0).split()
-    (['+2.8', '%'], ['+120000', '%'])
+    >>> percent(0.0275).split(), percent(1234.0).split(), percent(math.inf) == NOTHING
+    (['+2.8', '%'], ['+120000', '%'], True)
     """
-    value = 100 * share
-    if not math.isfinite(value):
-        return NOTHING
-    sign = "+" if value > 0 else ""
-    digits = 2 if abs(value) < 10 or abs(value) >= 1000 else 3
-    return f"{sign}{number(value, digits)}\N{NO-BREAK SPACE}%"
+    return written.percent(share).replace("-", MINUS).replace(" ", "\N{NO-BREAK SPACE}") or NOTHING

@@ -18,6 +18,12 @@ if TYPE_CHECKING:
 Array = npt.NDArray[Any]
 Point = tuple[float, float]
 
+MOST = 1000
+"""Values of an axis above which only some are drawn: a picture has no more columns."""
+
+DAMPING = (0.02, 0.05, 0.1, 0.2, 0.4)
+"""Least damping ratios at which lines are drawn where they are known."""
+
 
 def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any = None) -> Any:
     """Draw the stable and the unstable region of two parameters, the boundary, and the vehicle as it is.
@@ -25,7 +31,8 @@ def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any 
     Parameters
     ----------
     result
-        `ucrit.stability_map(vehicle, ...)` over two parameters; the first one goes to the right.
+        `ucrit.stability_map(vehicle, ...)` over two parameters; the first one goes to the right. With margins, lines
+        of equal least damping ratio are drawn too.
     vehicle
         The vehicle as it is, to be marked.
     figure
@@ -38,14 +45,15 @@ def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any 
     Raises
     ------
     UcritError
-        If the map does not have two dimensions, both of them parameters.
+        If the map does not have two dimensions, both of them parameters, or one of them has a single value.
     """
     names = tuple(result.coords)
     declared = type(result.vehicle).declaration.parameters
     if len(names) != 2 or any(name not in declared for name in names):
         raise UcritError(f"a map is drawn over two parameters, this one spans {', '.join(names) or 'none'}")
-    x, y = (np.asarray(result.coords[name], dtype=float) for name in names)
-    stable = np.asarray(result.stable, dtype=bool).T
+    taken = [_some(name, np.asarray(result.coords[name])) for name in names]
+    x, y = (np.asarray(result.coords[name], dtype=float)[i] for name, i in zip(names, taken, strict=True))
+    stable = np.asarray(result.stable, dtype=bool)[np.ix_(*taken)].T
     point = None if vehicle is None else _point(vehicle, names, (x, y))
     with style.settings():
         fig = figure or style.new_figure(height=4.0)
@@ -56,6 +64,9 @@ def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any 
         fill(axes, (x, y), stable, point)
         if stable.any() and not stable.all():
             axes.contour(x, y, stable.astype(float), levels=[0.5], colors=[style.INK], linewidths=1.4, zorder=3)
+        if result.damping is not None:
+            lines = axes.contour(x, y, result.damping[np.ix_(*taken)].T, DAMPING, colors=[style.MUTED], linewidths=0.8)
+            axes.clabel(lines, fontsize=8)
         if point is not None:
             _design(axes, point, (x, y), stable)
         axes.set_xlim(x.min(), x.max())
@@ -64,6 +75,14 @@ def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any 
         axes.set_ylabel(_axis(declared[names[1]]))
         style.tidy(axes, grid=False)
     return fig
+
+
+def _some(name: str, values: Array) -> Array:
+    """Positions of the values that are drawn, rising, the least and the greatest among them."""
+    rising = np.unique(values, return_index=True)[1]
+    if rising.size < 2:
+        raise UcritError(f"a map is drawn over ranges, but {name} is {float(values[0]):g} all over it")
+    return np.asarray(rising[np.linspace(0, rising.size - 1, min(rising.size, MOST)).round().astype(int)])
 
 
 def fill(axes: Any, grid: tuple[Array, Array], stable: Array, point: Point | None) -> None:

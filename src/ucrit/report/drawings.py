@@ -95,7 +95,7 @@ def of_map(analysis: Analysis, asked: Sequence[str] | None, path: Locus | None) 
     second = choices.map_range(analysis, up, MAP_POINTS, path, beside)
     ranges: dict[str, Any] = {across: first, up: second}
     result = stability_map(analysis.vehicle, **ranges)
-    description = f"Map of stability over {across} and {up}: stable on {percent(result.share).lstrip('+')} of it."
+    description = f"Map of stability over {across} and {up}: stable on {number(100 * result.share, 3)} % of it."
     return Drawing(
         svg(plot_map(result, vehicle=analysis.vehicle), "map", description),
         Markup("Stability over {} and {}, all other parameters as they are.{}{}").format(

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .. import __version__
+from ..core.errors import UcritError
 from . import derivation, drawings, formulas, tables
 
 if TYPE_CHECKING:
@@ -52,6 +53,8 @@ def write_report(
     """
     from ..analyses.results.convert import write_whole
 
+    if not os.fspath(path).lower().endswith((".html", ".htm")):
+        raise UcritError(f"a report is written to a file ending in .html, got '{os.fspath(path)}'")
     write_whole(path, render(analysis, map_parameters=map_parameters, command=command).encode())
 
 

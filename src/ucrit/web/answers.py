@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ..analyses.about.listing import listing
+from ..analyses.nonlinear.handling import has_handling
 from ..analyses.regions.stability_map import stability_map
 from ..analyses.regions.uncertainty import uncertainty
 from ..analyses.stability.advice import advice
@@ -74,6 +75,7 @@ def opened(vehicle: Model, body: Mapping[str, Any]) -> Answer:
         "along": declared.speed or (pair[0] if pair else next(iter(declared.parameters), None)),
         "map": pair,
         "moves": hasattr(vehicle, "drawing"),
+        "turns": has_handling(vehicle),
         "states": _states(vehicle),
         "parameters": [
             {

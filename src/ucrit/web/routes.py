@@ -19,7 +19,7 @@ from starlette.responses import Response
 from starlette.routing import Route
 
 from ..core.errors import UcritError
-from . import answers
+from . import answers, beyond
 from .downloads import File, download
 from .equations import equations
 from .guard import MAX_BODY, Guard, TooLargeError
@@ -48,6 +48,8 @@ SLOW: dict[str, Callable[[Model, Mapping[str, Any]], Any]] = {
     "sure": answers.sure,
     "motion": motion,
     "equations": equations,
+    "handling": beyond.handling,
+    "cycles": beyond.cycles,
     "download": download,
 }
 """Asked once in a while; some derive formulas for seconds."""

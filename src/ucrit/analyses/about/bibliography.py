@@ -118,4 +118,4 @@ def _work(key: str, entry: Mapping[str, Any]) -> Work:
         from importlib import import_module
 
         fields["version"] = import_module("ucrit").__version__
-    return Work(key, entry["type"], tuple(entry["author"]), entry["title"], fields, entry.get("checked", False))
+    return Work(key, entry["type"], tuple(entry["author"]), entry["title"], fields, bool(entry.get("checked")))

@@ -29,6 +29,7 @@ from ...catalogue import (
 from ...core.errors import UcritError, near_match
 from ...core.model import Model
 from ...core.part import Part
+from ...core.record import Record
 from .bibliography import SOFTWARE, Work, works, works_in
 from .show import resolve
 
@@ -64,7 +65,7 @@ class Citation:
 
 
 @dataclass(frozen=True)
-class Citations:
+class Citations(Record):
     """What `cite` finds.
 
     Attributes
@@ -180,7 +181,7 @@ def _found(subject: Any) -> Any:
     tire = importlib.import_module("ucrit.parts.tires").Tire
     root = importlib.import_module("ucrit")
     if subject in root._PUBLIC and inspect.isfunction(getattr(root, subject)):
-        return getattr(root, subject)
+        return inspect.unwrap(getattr(root, subject))
     if subject in controller_names():
         return find_controller(subject)
     if subject in (*part_names(tire), *tire_names()) or subject.lower().endswith(".tir"):
@@ -193,6 +194,7 @@ def _found(subject: Any) -> Any:
 
 
 def _known(subject: Any) -> Any:
+    subject = inspect.unwrap(subject) if inspect.isfunction(subject) else subject
     kinds = isinstance(subject, Model) or (isinstance(subject, type) and issubclass(subject, Model | Part))
     if kinds or (inspect.isfunction(subject) and subject.__module__.startswith("ucrit.")):
         return subject

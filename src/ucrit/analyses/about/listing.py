@@ -99,7 +99,7 @@ def _model(name: str) -> Entry:
 
 def _vehicle(name: str) -> Entry:
     content = tomllib.loads(read_text(VEHICLES / f"{name}.toml"))
-    return Entry(name, content.get("name", name), content["model"])
+    return Entry(name, content.get("name", name), content["model"].replace("_", "-"))
 
 
 def template(subject: type[Model] | Model | str | os.PathLike[str], like: Model | str | None = None) -> str:
@@ -138,7 +138,7 @@ def _model_entry(path: str, name: str) -> str:
     if path in vehicle_names() or path.endswith(BONDS):
         return name
     content = tomllib.loads(read_text(type(VEHICLES)(path)))
-    return name if "graph" in content else str(content["model"])
+    return name if "graph" in content else str(content["model"].replace("_", "-"))
 
 
 def _like(model: type[Model], other: Model | None, name: Model | str) -> Model:

@@ -17,6 +17,7 @@ from ...core.compiled import direction
 from ...core.declare import Input, Output, Parameter, Variable
 from ...core.errors import UcritError, near_match
 from ...core.model import Model
+from ...core.record import Record
 from ..stability.analyze import criteria_or_why
 from ..stability.criteria import Criteria
 
@@ -67,7 +68,7 @@ Matrix = tuple[tuple[Formula, ...], ...]
 
 
 @dataclass(frozen=True)
-class ModelDescription:
+class ModelDescription(Record):
     """What `show` finds.
 
     Attributes

@@ -116,7 +116,10 @@ class NthOrder(LinearForm):
     def __post_init__(self) -> None:
         from .forms_convert import exact
 
-        a = tuple(exact(entry) for entry in self.a)
+        try:
+            a = tuple(exact(entry) for entry in self.a)
+        except TypeError:
+            raise UcritError(f"a must be a list of coefficients, got {self.a!r}") from None
         if len(a) < 2 or a[-1] == 0:
             raise UcritError(f"a must be two coefficients or more, the last of them not zero, got {self.a!r}")
         object.__setattr__(self, "a", a)
@@ -150,7 +153,9 @@ class StateSpace(LinearForm):
 
     def __post_init__(self) -> None:
         _make_square(self, "A")
-        object.__setattr__(self, "states", self.states or self.names)
+        if isinstance(self.states, str) or not all(isinstance(name, str) for name in self.states):
+            raise UcritError(f"states must be names, one for each row of A, got {self.states!r}")
+        object.__setattr__(self, "states", tuple(self.states) or self.names)
 
     @property
     def matrices(self) -> tuple[Any, ...]:

@@ -71,8 +71,8 @@ class Margins(Tabular):
         if not self.stable:
             return f"no margins at {self.input}: the closed loop is unstable"
         up = "no limit" if np.isinf(self.gain_up) else f"{self.gain_up:.4g}"
-        delay = "any delay" if np.isinf(self.delay) else f"{self.delay:.4g} s"
-        phase = "any phase" if np.isinf(self.phase) else f"{np.degrees(self.phase):.4g} degrees"
+        delay = "any delay" if np.isinf(self.delay) else f"delay {self.delay:.4g} s"
+        phase = "any phase" if np.isinf(self.phase) else f"phase {np.degrees(self.phase):.4g} degrees"
         return f"at {self.input}: gain times {self.gain_down:.4g} to {up}, {phase}, {delay}, disk {self.disk:.4g}"
 
 
@@ -111,7 +111,7 @@ def margins(vehicle: Model, input: str | None = None) -> Margins:
     --------
     >>> from ucrit import load
     >>> print(margins(load("motorcycle-steered-to-lean"), "delta_f"))
-    at delta_f: gain times 0.1777 to no limit, 14.48 degrees, 0.03376 s, disk 0.2511
+    at delta_f: gain times 0.1777 to no limit, phase 14.48 degrees, delay 0.03376 s, disk 0.2511
     """
     if input is None:
         names = driven_inputs(type(vehicle))

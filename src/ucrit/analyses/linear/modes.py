@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ...core.compiled import compiled, direction, labels, state_space
 from ...core.errors import UcritError
 from ...core.model import Model
+from ...core.record import Record
 from ...core.units import dimension
 from ...numerics.assignment import assign
 from ..results.convert import Series, Table, Tabular, complex_series, unit_of
@@ -20,13 +21,13 @@ from ..results.convert import Series, Table, Tabular, complex_series, unit_of
 Array = npt.NDArray[Any]
 
 STAYS = {
-    dimension(unit): word for unit, word in (("m", "position"), ("1", "position"), ("m/s", "velocity"), ("1/s", "rate"))
+    dimension(unit): word for unit, word in (("m", "position"), ("1", "position"), ("m/s", "speed"), ("1/s", "rate"))
 }
 """What a state is called that a zero eigenvalue leaves where it is."""
 
 
 @dataclass(frozen=True)
-class Mode:
+class Mode(Record):
     """One real mode or one pair of conjugate modes of a vehicle.
 
     Attributes
@@ -110,6 +111,8 @@ class Modes(Tabular):
             raise UcritError("modes of a vehicle with array parameters are arrays: use .eigenvalues and .participation")
         kept = [k for k, value in enumerate(self.eigenvalues) if value.imag >= 0]
         named = [f"{motion} {self._going(k)}" for motion, k in zip(self._motions(kept), kept, strict=True)]
+        own = getattr(type(self.vehicle), "mode_names", {})
+        named = [own.get(name, name) for name in named]
         names = _distinct(list(zip(named, self.eigenvalues[kept], strict=True)))
         return [
             Mode(
@@ -157,7 +160,8 @@ class Modes(Tabular):
 
         It is that of the variable that takes part most. A model whose variables name as many motions as it has modes
         may say ``one_mode_each = True``: each motion then names the one mode in which it has its share, such that
-        all shares together are largest.
+        all shares together are largest. Where the field has names of its own, ``mode_names`` gives them by the names
+        that follow: ``{"steer oscillation": "weave oscillation"}``.
         """
         rows: dict[str, list[int]] = {}
         motions = [self._motion(label.rstrip("'")) for label in self.labels]

@@ -60,7 +60,10 @@ def _choose(vehicle: Model, input: str, outputs: str | Sequence[str] | None) -> 
 
 
 def frequency_response(
-    vehicle: Model, input: str, outputs: str | Sequence[str] | None = None, frequencies: Any = None
+    vehicle: Model,
+    input: str,
+    outputs: str | Sequence[str] | None = None,
+    frequencies: Sequence[float] | Array | None = None,
 ) -> FrequencyResponse:
     """Return the complex response of outputs to sines of one input.
 
@@ -107,7 +110,7 @@ def step_response(
     vehicle: Model,
     input: str,
     outputs: str | Sequence[str] | None = None,
-    times: Any = None,
+    times: Sequence[float] | Array | None = None,
     *,
     size: float = 1.0,
 ) -> TimeResponse:
@@ -150,7 +153,7 @@ def impulse_response(
     vehicle: Model,
     input: str,
     outputs: str | Sequence[str] | None = None,
-    times: Any = None,
+    times: Sequence[float] | Array | None = None,
     *,
     size: float = 1.0,
 ) -> TimeResponse:
@@ -178,6 +181,8 @@ def _in_time(vehicle: Model, input: str, outputs: Any, times: Any, size: float, 
     t = np.atleast_1d(_axis(vehicle, "times", times, _times))
     if t.ndim != 1 or not np.all(np.isfinite(t) & (t >= 0)):
         raise UcritError("times must be a list of finite numbers not below 0 s")
+    if not np.isfinite(size):
+        raise UcritError(f"size must be a finite number, got {size!r}")
     n = chosen.A.shape[-1]
     joined = np.zeros((*chosen.A.shape[:-2], n + 1, n + 1))
     joined[..., :n, :n], joined[..., :n, n] = chosen.A, chosen.B

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+import numpy.typing as npt
 
 from ...control import broken, driven
 from ...control.late import Late, exactly_delayed
@@ -31,7 +32,7 @@ def simulate_delayed(
     inputs: Mapping[str, Any] | None = None,
     *,
     before: Mapping[str, float | str | Callable[[float], float]] | None = None,
-    times: Any = None,
+    times: Sequence[float] | npt.NDArray[Any] | None = None,
     tolerance: float | None = None,
     method: str = "auto",
 ) -> Simulation:

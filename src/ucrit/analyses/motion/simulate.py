@@ -38,7 +38,7 @@ def simulate(
     initial: Mapping[str, Any] | None = None,
     inputs: Mapping[str, float | str | Shape | Callable[[float], float]] | None = None,
     *,
-    times: Any = None,
+    times: Sequence[float] | Array | None = None,
     tolerance: float | None = None,
     method: str = "auto",
     progress: Callable[[float, float], None] | None = None,

@@ -80,6 +80,10 @@ class Simulation(Tabular):
     starts: Mapping[str, Array] = field(default_factory=dict)
     course: Course | None = field(default=None, repr=False, compare=False)
 
+    def __getstate__(self) -> Any:
+        """Return what is pickled and copied: the motion at its times, without the method's own interpolation."""
+        return {**super().__getstate__(), "course": None}
+
     def __getitem__(self, name: str) -> Array:
         """Return a state, output or input over time, shape (..., T)."""
         names = (*self.states, *self.outputs, *self.inputs)
@@ -103,7 +107,7 @@ class Simulation(Tabular):
         0.0219
         """
         if self.course is None or not self.course.stretches:
-            raise UcritError("a batch is known at its times only: give simulate the times wanted")
+            raise UcritError("a batch, or a copy, is known at its times only: give simulate the times wanted")
         last = self.course.stretches[-1].end
         try:
             at = np.atleast_1d(np.asarray(times, dtype=float))

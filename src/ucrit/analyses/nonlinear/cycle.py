@@ -45,7 +45,8 @@ class Cycle(Tabular):
         Floquet multipliers but for the one that is always 1, largest first: factors by which deviations from the
         cycle grow in a period.
     stable, fold
-        Whether all multipliers are inside the unit circle, and whether the branch turns round here.
+        Whether all multipliers are inside the unit circle by more than their error, and whether the branch turns
+        round here.
     error
         Estimated relative error of the states that the mesh makes. At a given value of the parameter a cycle with a
         multiplier near 1 is less certain, by the factor ``1/abs(1 - multiplier)``.
@@ -123,7 +124,9 @@ class CycleBranch(Tabular):
         The limit cycles, from the smallest one next to the critical value.
     end
         Why the branch is followed no further: ``"range"`` (the parameter's), ``"equilibrium"`` (it ends in another
-        critical value), ``"large"`` (angles pass 90 degrees), ``"stuck"`` (no neighbour was found) or ``"count"``.
+        critical value), ``"large"`` (angles pass 90 degrees), ``"endless"`` (ever larger cycles at one value),
+        ``"slides"`` (the motion would slide along a jump of a law), ``"stuck"`` (no neighbour was found) or
+        ``"count"``.
     """
 
     vehicle: Model

@@ -10,6 +10,8 @@ import numpy as np
 from ..stability.wording import speed_text
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from .cycle import Cycle, CycleBranch
     from .cycles import LimitCycles
 
@@ -22,23 +24,27 @@ ENDS = {
     "range": "",
     "equilibrium": "the branch ends in another critical value",
     "large": "the branch is not followed to angles beyond 90 degrees",
+    "endless": "the branch goes on to ever larger cycles at the same value",
+    "slides": "the branch is not followed further: the motion would slide along a jump of a law",
     "stuck": "the branch cannot be followed further",
     "count": "the branch is not followed further",
 }
 
 
-def describe(found: LimitCycles) -> tuple[str, ...]:
-    """Return what happens beyond the critical values, one or more sentences for each branch."""
+def describe(found: LimitCycles, say: Callable[[float], str] = speed_text) -> tuple[str, ...]:
+    """Return what happens beyond the critical values, one or more sentences for each branch; ``say`` writes a speed."""
     if not found.branches:
         return (f"No oscillation begins at any {found.parameter} in the range; there are no limit cycles to follow.",)
-    return tuple(sentence for branch in found.branches for sentence in _branch(branch, found))
+    return tuple(sentence for branch in found.branches for sentence in _branch(branch, say))
 
 
-def value_text(branch_or_found: CycleBranch | LimitCycles, value: float) -> str:
-    """Return a value of the parameter with its unit; speeds in km/h too."""
+def value_text(
+    branch_or_found: CycleBranch | LimitCycles, value: float, say: Callable[[float], str] = speed_text
+) -> str:
+    """Return a value of the parameter with its unit; speeds as ``say`` writes them, in km/h too."""
     declared = type(branch_or_found.vehicle).declaration
     if declared.speed == branch_or_found.parameter:
-        return speed_text(abs(value)) + (" backing up" if value < 0 else "")
+        return say(abs(value)) + (" backing up" if value < 0 else "")
     unit = "" if branch_or_found.unit == "1" else f" {branch_or_found.unit}"
     return f"{branch_or_found.parameter} = {value:.4g}{unit}"
 
@@ -65,20 +71,21 @@ def leading_state(branch: CycleBranch) -> tuple[str, str]:
     return (*angles, *lengths, *((s, unit) for s, unit, _ in own), (branch.states[0], "1"))[0]
 
 
-def _branch(branch: CycleBranch, found: LimitCycles) -> list[str]:
+def _branch(branch: CycleBranch, say: Callable[[float], str]) -> list[str]:
     event = branch.critical
     subject = event.mode.rpartition(" ")[0]
+    side = "below" if (event.stable == "below") == (event.value > 0) else "above"
     said = [
-        f"Straight running is stable {'below' if (event.stable == 'below') == (event.value > 0) else 'above'} "
-        f"{value_text(branch, event.value)}; beyond, the {subject} oscillation grows at {event.frequency_hz:.3g} Hz."
+        f"Straight running is stable {side} {value_text(branch, event.value, say)}; beyond, the {subject} oscillation "
+        f"grows at {event.frequency_hz:.3g} Hz."
     ]
     said += [_kind(branch)]
     onset = branch.onset
     if branch.kind == "subcritical" or onset is not None:
-        said += [_onset(branch, onset)]
-    said += [f"Near {value_text(branch, at)} {EVENTS[what]}." for what, at in branch.events]
+        said += [_onset(branch, onset, say)]
+    said += [f"Near {value_text(branch, at, say)} {EVENTS[what]}." for what, at in branch.events]
     if ENDS[branch.end]:
-        said += [f"{ENDS[branch.end][0].upper()}{ENDS[branch.end][1:]} ({value_text(branch, branch.values[-1])})."]
+        said += [f"{ENDS[branch.end][0].upper()}{ENDS[branch.end][1:]} ({value_text(branch, branch.values[-1], say)})."]
     worst = max(cycle.error for cycle in branch.cycles)
     if worst > 1e-3:
         said += [f"The states of the least accurate cycle are off by about {worst:.1%}."]
@@ -99,14 +106,14 @@ def _kind(branch: CycleBranch) -> str:
     return "The first limit cycles are at the critical value itself: what bounds the motion acts on larger ones only."
 
 
-def _onset(branch: CycleBranch, onset: Cycle | None) -> str:
+def _onset(branch: CycleBranch, onset: Cycle | None, say: Callable[[float], str]) -> str:
     if onset is None or not np.isfinite(onset.value):
         side, end = ("down", np.min) if branch.critical.stable == "below" else ("up", np.max)
-        return f"No stable limit cycle is found {side} to {value_text(branch, float(end(branch.values)))}."
+        return f"No stable limit cycle is found {side} to {value_text(branch, float(end(branch.values)), say)}."
     share = abs(onset.value / branch.critical.value - 1)
     name, unit = leading_state(branch)
     size = amplitude_text(onset.amplitude[name], unit)
-    at = value_text(branch, onset.value)
+    at = value_text(branch, onset.value, say)
     how = f"with an amplitude of {name} of {size} there"
     word = "from" if branch.critical.stable == "below" else "up to"
     side = "below" if branch.critical.stable == "below" else "above"
@@ -116,10 +123,10 @@ def _onset(branch: CycleBranch, onset: Cycle | None) -> str:
     )
 
 
-def expectation(found: LimitCycles, value: float) -> str:
+def expectation(found: LimitCycles, value: float, say: Callable[[float], str] = speed_text) -> str:
     """Return what to expect at one value of the parameter, in a sentence or two."""
     cycles = found.at(value)
-    at = value_text(found, value)
+    at = value_text(found, value, say)
     inside = any(low < value < high for low, high in found.critical.stable_ranges())
     said = [f"At {at} straight running is {'stable' if inside else 'unstable'}"]
     if not found.branches or not cycles:

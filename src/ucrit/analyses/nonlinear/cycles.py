@@ -109,7 +109,7 @@ def field_of(vehicle: Model, parameter: str) -> Field:
 
     def switches(x: Array, value: float) -> Array:
         given, u = changed(value)
-        return made.switches(x, np.broadcast_to(u[:, None], (len(u), x.shape[1])), given)
+        return made.switches(x, np.broadcast_to(u[:, None], (len(u), x.shape[1])), given).reshape(-1, x.shape[1])
 
     return Field(rates, slopes, switches)
 
@@ -148,7 +148,8 @@ def limit_cycles(
     Raises
     ------
     UcritError
-        If a name or range is wrong, a position is free, or no limit cycle is found beside a critical value.
+        If a name or range is wrong, a position is free, the equations are linear, or no limit cycle is found beside a
+        critical value.
 
     Examples
     --------
@@ -171,6 +172,8 @@ def limit_cycles(
     flutter = [c for c in flutter if low < c.value < high]
     found: list[CycleBranch] = []
     moving = field_of(vehicle, name)
+    if flutter and _linear(vehicle, moving, name):
+        raise UcritError(f"{type(vehicle).model_id()}: the equations are linear, so that there are no limit cycles")
     for number, event in enumerate(flutter):
         if any(_ends_at(branch, event.value) for branch in found):
             continue
@@ -179,12 +182,29 @@ def limit_cycles(
             if progress is not None:
                 progress(number * most + done, len(flutter) * most)
 
+        begun = _hopf(vehicle, moving, event)
+        if _jumps(moving, begun):
+            raise UcritError(
+                f"{type(vehicle).model_id()}: a law jumps on the basic motion itself, as dry friction does, so that no "
+                f"small oscillation begins at {event.parameter} = {event.value:.6g} from which cycles could be followed"
+            )
         options: Any = {"tolerance": tolerance, "beyond": _sideways(vehicle), "progress": advance}
-        branch = follow(moving, _hopf(vehicle, moving, event), low, high, **options)
+        branch = follow(moving, begun, low, high, **options)
         found.append(_result(vehicle, event, moving, branch))
     if progress is not None:
         progress(1, 1)
     return LimitCycles(vehicle, name, declared.unit, low, high, values, tuple(found))
+
+
+def _linear(vehicle: Model, moving: Field, name: str) -> bool:
+    """Whether the slopes are the same wherever the vehicle is, near the basic motion and far away."""
+    rest, _ = motion(type(vehicle)).basic(vehicle.arguments())
+    ways = np.random.default_rng(0).normal(size=(len(rest), 4)) * [0, 1e-2, 0.1, 1]
+    value = float(vehicle.values[name])
+    if moving.switches is not None and len(moving.switches(rest[:, None] + ways, value)):
+        return False
+    A, _ = moving.slopes(rest[:, None] + ways, value)
+    return bool(np.abs(A - A[:1]).max() <= 1e-9 * np.abs(A[0]).max())
 
 
 def _span(
@@ -222,6 +242,18 @@ def _hopf(vehicle: Model, moving: Field, event: Critical) -> Hopf:
     eigenvalues, vectors = np.linalg.eig(A)
     nearest = int(np.argmin(np.abs(eigenvalues - 2j * np.pi * event.frequency_hz)))
     return Hopf(event.value, rest, float(eigenvalues[nearest].imag), vectors[:, nearest])
+
+
+def _jumps(moving: Field, begun: Hopf) -> bool:
+    """Tell whether the rates jump where a branch begins: they then differ on its sides however small the motion is."""
+    angles = np.exp(2j * np.pi * np.arange(8) / 8)
+    wave = np.real(begun.vector[:, None] * angles)
+    across = [
+        np.abs(moving.rates(begun.state[:, None] + s * wave, begun.parameter)
+               - moving.rates(begun.state[:, None] - s * wave, begun.parameter)).max()
+        for s in (1e-4, 1e-7)
+    ]  # fmt: skip
+    return bool(across[1] > 0.1 * across[0])
 
 
 def _result(vehicle: Model, event: Critical, moving: Field, branch: Branch | None) -> CycleBranch:

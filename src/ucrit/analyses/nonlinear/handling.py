@@ -20,7 +20,8 @@ from ...core.model import Model
 from ...core.units import to_si
 from ..linear.steady import GRAVITY
 from ..results.convert import Series, Table, Tabular
-from .steady_family import SteadyFamily, steady_family
+from .steady_family import SteadyFamily
+from .turns import Turns, chosen
 
 Array = npt.NDArray[Any]
 
@@ -29,9 +30,6 @@ SATURATED = 0.03
 
 ALIKE = 0.2
 """Slips that grow at rates nearer to each other than this share saturate together."""
-
-BEYOND = 3.0
-"""Lateral acceleration [g] up to which the family would go; no tire goes so far."""
 
 NEUTRAL = 1e-3
 """A difference of slip angles that changes by less than this share of what they do stays as it is."""
@@ -52,18 +50,20 @@ class Range:
 
 @dataclass(frozen=True)
 class Handling(Tabular):
-    """Steady turns of a car from straight running to the limit, to one side, at a constant speed.
+    """Steady turns of a car up to the limit, to one side: at constant speed, constant radius or constant steer angle.
 
     Slip angles are given as the book counts them, positive in a turn with positive curvature.
 
     Attributes
     ----------
-    vehicle, steer
-        The car and the input that steers it.
+    vehicle
+        The car.
+    turns
+        What stays the same (``constant`` and its ``value``), and the input that steers.
     family
         The steady turns themselves, with all states and outputs.
-    a_y, curvature, delta
-        Lateral acceleration [m/s^2], one over the radius [1/m], steer angle [rad], shape (N,).
+    speed, a_y, curvature, delta
+        Speed [m/s], lateral acceleration [m/s^2], one over the radius [1/m], steer angle [rad], shape (N,).
     front, rear
         Slip angles of the axles [rad].
     gradient
@@ -79,8 +79,9 @@ class Handling(Tabular):
     """
 
     vehicle: Model
-    steer: str
+    turns: Turns
     family: SteadyFamily = field(repr=False)
+    speed: Array = field(repr=False)
     a_y: Array = field(repr=False)
     curvature: Array = field(repr=False)
     delta: Array = field(repr=False)
@@ -90,6 +91,11 @@ class Handling(Tabular):
     ranges: tuple[Range, ...]
     largest: float
     limit: str
+
+    @property
+    def steer(self) -> str:
+        """The input that steers."""
+        return self.turns.steer
 
     @property
     def stable(self) -> Array:
@@ -114,8 +120,8 @@ class Handling(Tabular):
     def table(self) -> Table:
         """Return the curves of the handling diagram."""
         columns = {
-            "a_y": "m/s^2", "curvature": "1/m", "delta": "rad", "front": "rad", "rear": "rad", "difference": "rad",
-            "gradient": "rad s^2/m",
+            "speed": "m/s", "a_y": "m/s^2", "curvature": "1/m", "delta": "rad", "front": "rad", "rear": "rad",
+            "difference": "rad", "gradient": "rad s^2/m",
         }  # fmt: skip
         data = [Series(name, ("point",), getattr(self, name), unit) for name, unit in columns.items()]
         data.append(Series("stable", ("point",), self.stable))
@@ -135,8 +141,14 @@ def handling_diagram(
     slip: float | str = 0.3,
     free: str | Iterable[str] | None = None,
     step: float = 0.03,
+    radius: float | str | None = None,
+    angle: float | str | None = None,
+    upto: float | str | None = None,
 ) -> Handling:
-    """Return the handling diagram of a car: steady turns up to the limit, at the car's speed.
+    """Return the handling diagram of a car: steady turns up to the limit.
+
+    At the car's speed, the steer angle growing; or, if one of them is given, at a constant radius or a constant steer
+    angle, the speed rising: the three open-loop tests of ISO 4138.
 
     Parameters
     ----------
@@ -152,6 +164,10 @@ def handling_diagram(
         a state, such as the drive torque that keeps the forward velocity.
     step
         Largest step along the family.
+    radius, angle
+        Radius of the circle [m, or text with a unit], or steer angle [rad, or text with a unit], that stays the same.
+    upto
+        Speed [m/s, or text with a unit] at which a test with rising speed ends; 100 m/s by default.
 
     Returns
     -------
@@ -161,7 +177,7 @@ def handling_diagram(
     Raises
     ------
     UcritError
-        If the model lacks what is needed.
+        If the model lacks what is needed, or a value makes no sense.
 
     Examples
     --------
@@ -169,21 +185,38 @@ def handling_diagram(
     >>> car = handling_diagram(load("spinning-car"))
     >>> car.limit, round(car.largest, 3), round(car.unstable_from, 3)
     ('spin', 7.845, 6.841)
+    >>> circle = handling_diagram(load("ploughing-car"), radius="60 m")
+    >>> circle.limit, round(float(circle.speed.max()), 2)
+    ('plough-out', 22.17)
     """
     _refuse_unfit(vehicle, steer)
     keeps: dict[str, str] = getattr(type(vehicle), "keeps_speed", {})
     others = tuple(keeps) if free is None else (free,) if isinstance(free, str) else tuple(free)
-    speed = float(vehicle.values[type(vehicle).declaration.speed or ""])
-    hold = {keeps[name]: speed for name in others if name in keeps}
+    turns = chosen(vehicle, steer, others, radius, angle)
+    fastest = None if upto is None else to_si(upto, "m/s", "upto")
+    if fastest is not None and turns.constant == "speed":
+        raise UcritError("upto ends a test with rising speed: give a radius or an angle, or set the car's speed")
     reach = to_si(slip, "rad", "slip")
     if not 0 < reach < np.inf:
         raise UcritError(f"slip must be above 0 rad, got {reach:g} rad")
-    within = {"alpha_f": (-reach, reach), "alpha_r": (-reach, reach), **getattr(type(vehicle), "valid", {})}
-    family = steady_family(vehicle, "a_y", BEYOND * GRAVITY, free=(steer, *others), hold=hold, within=within, step=step)
-    return _diagram(vehicle, steer, family, speed)
+    within = {"alpha_f": (-reach, reach), "alpha_r": (-reach, reach)}
+    return _diagram(vehicle, turns, turns.follow(vehicle, within, step, fastest))
+
+
+def has_handling(vehicle: Model, steer: str = "delta_f") -> bool:
+    """Whether a vehicle's model has what a handling diagram needs."""
+    return not _lacking(vehicle, steer)
 
 
 def _refuse_unfit(vehicle: Model, steer: str) -> None:
+    missing = _lacking(vehicle, steer)
+    if missing:
+        *some, last = missing
+        needs = f"{', '.join(some)} and {last}" if some else last
+        raise UcritError(f"{type(vehicle).model_id()}: a handling diagram needs {needs}, which the model does not have")
+
+
+def _lacking(vehicle: Model, steer: str) -> list[str]:
     declared = type(vehicle).declaration
     outputs, inputs, states = declared.outputs, declared.inputs, declared.variables
     needed = [
@@ -195,14 +228,11 @@ def _refuse_unfit(vehicle: Model, steer: str) -> None:
         ("curvature" not in outputs and "r" not in states, "an output curvature [1/m] or a yaw rate r [rad/s]"),
         (inputs.get(steer) is None or inputs[steer].unit != "rad", f"a steer angle {steer} [rad]"),
     ]
-    missing = [text for lacks, text in needed if lacks]
-    if missing:
-        *some, last = missing
-        needs = f"{', '.join(some)} and {last}" if some else last
-        raise UcritError(f"{type(vehicle).model_id()}: a handling diagram needs {needs}, which the model does not have")
+    return [text for lacks, text in needed if lacks]
 
 
-def _diagram(vehicle: Model, steer: str, family: SteadyFamily, speed: float) -> Handling:
+def _diagram(vehicle: Model, turns: Turns, family: SteadyFamily) -> Handling:
+    speed = turns.speeds(vehicle, family)
     front, rear = -family["alpha_f"], -family["alpha_r"]
     curvature = family["curvature"] if "curvature" in family.values else family["r"] / speed
     opening = family.rates["alpha_r"] - family.rates["alpha_f"]
@@ -212,7 +242,7 @@ def _diagram(vehicle: Model, steer: str, family: SteadyFamily, speed: float) -> 
     ranges = _ranges(family, a_y, curvature, opening)
     top = int(np.argmax(a_y))
     return Handling(
-        vehicle, steer, family, a_y, curvature, family[steer], front, rear, gradient, ranges,
+        vehicle, turns, family, speed, a_y, curvature, family[turns.steer], front, rear, gradient, ranges,
         float(a_y[top]), _limit(family, top),
     )  # fmt: skip
 
@@ -251,8 +281,9 @@ def _border(family: SteadyFamily, a_y: Array, curvature: Array, opening: Array, 
     """Return lateral acceleration and curvature where the kind changes between points k - 1 and k."""
     change = next((c for c in family.changes if c.after == k - 1), None)
     if change is not None and family.stable[k] != family.stable[k - 1]:
-        there = np.interp(change.value, *_rising(a_y[k - 1 : k + 1], curvature[k - 1 : k + 1]))
-        return change.value, change.values.get("curvature", float(there))
+        there = float(change.values["a_y"])
+        turn = np.interp(there, *_rising(a_y[k - 1 : k + 1], curvature[k - 1 : k + 1]))
+        return there, change.values.get("curvature", float(turn))
     one, other = opening[k - 1], opening[k]
     share = one / (one - other) if one * other < 0 else 0.5
     return tuple(float(v[k - 1] + share * (v[k] - v[k - 1])) for v in (a_y, curvature))  # type: ignore[return-value]

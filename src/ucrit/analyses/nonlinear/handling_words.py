@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from ..linear.steady import GRAVITY
+from ..stability.wording import speed_text
 from .steady_problem import CANNOT
 
 if TYPE_CHECKING:
@@ -18,6 +19,9 @@ LIMITS = {
     "spin": "spins: the rear axle saturates first",
     "drift": "slides on both axles at once",
 }
+
+ROUNDING = 1e-9
+"""Share of the front axle's own slip per lateral acceleration below which their difference is rounding."""
 
 NOT_YET = "no axle saturates within the slip angles looked at"
 
@@ -31,29 +35,36 @@ def acceleration(a_y: float) -> str:
     return f"{a_y:.4g} m/s^2 ({a_y / GRAVITY:.3g} g)"
 
 
-def sentences(found: Handling) -> list[str]:
-    """Return the lines that a handling diagram prints: limit, gradient, ranges, end."""
-    vehicle = found.vehicle
-    speed = float(vehicle.values[type(vehicle).declaration.speed or ""])
-    head = f"{vehicle.info.name or type(vehicle).model_id()}: steady turns at {speed:.4g} m/s"
+def facts(found: Handling) -> list[str]:
+    """Return what a handling diagram tells, a line each: limit, gradient, ranges, end."""
     limit = LIMITS.get(found.limit)
-    largest = f"    largest lateral acceleration {acceleration(found.largest)}"
     if not limit:
         lost = found.family.end.startswith(CANNOT)
         limit = "the limit is not known: the turns could not be followed to it" if lost else NOT_YET
-    lines = [head, f"    {limit}", largest]
-    K = found.gradient[0]
-    lines.append(f"    understeer gradient at first {K:.4g} rad/(m/s^2) = {found.gradient_deg_per_g[0]:.4g} deg/g")
+    lines = [limit, f"largest lateral acceleration {acceleration(found.largest)}"]
+    K, degrees = found.gradient[0], found.gradient_deg_per_g[0]
+    if abs(K) < ROUNDING * abs(found.family.rates["alpha_f"][0] / found.family.rates["a_y"][0]):
+        K = degrees = 0.0
+    lines.append(f"understeer gradient at first {K:.4g} rad/(m/s^2) = {degrees:.4g} deg/g")
     for part in found.ranges:
         a, b = (0.0 if abs(v) < 1e-9 * found.largest else v for v in part.a_y)
-        lines.append(f"    {part.kind:<11}{acceleration(a) if a else '0'} to {acceleration(b)}")
+        lines.append(f"{part.kind:<11}{acceleration(a) if a else '0'} to {acceleration(b)}")
     if np.isfinite(found.unstable_from):
         change = found.family.changes[0]
         at = f" at {change.frequency_hz:.3g} Hz" if change.kind == "flutter" else ""
-        lines.append(
-            f"    with the steering held, unstable from {acceleration(found.unstable_from)} on: {change.kind}{at}"
-        )
-    return [*lines, *wrapped(f"ends: {found.family.end}")]
+        from_ = acceleration(found.unstable_from)
+        lines.append(f"with the steering held, unstable from {from_} on: {change.kind}{at}")
+    if found.turns.constant != "speed":
+        lines.append(f"speed from {speed_text(found.speed[0])} to {speed_text(float(found.speed.max()))}")
+    return [*lines, f"ends: {found.family.end}"]
+
+
+def sentences(found: Handling) -> list[str]:
+    """Return the lines that a handling diagram prints: the car, then the facts, indented."""
+    vehicle = found.vehicle
+    head = f"{vehicle.info.name or type(vehicle).model_id()}: steady turns {found.turns.words}"
+    *lines, end = facts(found)
+    return [head, *(f"    {line}" for line in lines), *wrapped(end)]
 
 
 def wrapped(text: str) -> list[str]:

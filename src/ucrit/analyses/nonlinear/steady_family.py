@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -16,16 +17,17 @@ import numpy.typing as npt
 from ...core.errors import UcritError
 from ...core.model import Model
 from ...numerics.continuation import Curve, NoConvergenceError, follow
+from ...numerics.signs import real_parts
 from ..results.convert import Series, Table, Tabular, complex_series
 from .steady_problem import Problem
 
 Array = npt.NDArray[Any]
 
-STILL = 1e-11
-"""Real parts of eigenvalues below this share of the largest eigenvalue count as zero."""
-
 STANDING = 1e-6
-"""A quantity that moves by less than this share of its way, per length of the curve, stands still."""
+"""A quantity that moves by less than this share of its way, per length of the curve, does not turn back."""
+
+ROUNDING = 1e-12
+"""Share of an entry of the state matrix, or of the same entry where the family begins, by which it may be wrong."""
 
 OSCILLATING = 1e-6
 """Imaginary parts above this share of the largest eigenvalue belong to an oscillation."""
@@ -72,9 +74,10 @@ class SteadyFamily(Tabular):
     eigenvalues
         Shape (N, states) [1/s], the least stable first; positions that matter to nothing are left out.
     unstable
-        Shape (N,): number of eigenvalues in the right half plane.
+        Shape (N,): number of eigenvalues in the right half plane, by more than rounding can do.
     changes
-        Where that number changes.
+        Where an eigenvalue goes from one side of the imaginary axis to the other, and rounding leaves no doubt of
+        either.
     folds, branches
         Values of the moving quantity at its extremes, and where other families cross this one.
     end
@@ -161,12 +164,14 @@ def steady_family(
     to
         Value [SI, or text with a unit] at which it ends.
     free
-        Inputs or parameters that adjust themselves: one for every quantity held, and one more if a state or an
-        output moves.
+        Inputs or parameters that adjust themselves: one for every state or output held, and one more if a state or
+        an output moves.
     hold
-        States or outputs that keep a value [SI, or text with a unit]: a speed, the curvature of a turn.
+        States, outputs or inputs that keep a value [SI, or text with a unit]: a speed, the curvature of a turn, a
+        steer angle.
     within
-        Lowest and highest value of quantities, by name; the family ends where one is reached.
+        Lowest and highest value of quantities, by name; the family ends where one is reached. The ranges in which
+        the model's equations are good (its ``valid``) need not be given.
     step
         Largest step, as a share of the way that the linear equations predict for each unknown.
 
@@ -195,14 +200,20 @@ def steady_family(
     freed = (free,) if isinstance(free, str) else tuple(free)
     problem = Problem(vehicle, along, freed, hold or {})
     goal = problem.number(along, to)
-    limits = {name: tuple(problem.number(name, side) for side in sides) for name, sides in (within or {}).items()}
+    limits: dict[str, tuple[float, ...]] = {}
+    for bounds in (getattr(type(vehicle), "valid", {}), within or {}):
+        for name, sides in bounds.items():
+            low, high = limits.get(name, (-np.inf, np.inf))
+            one, other = (problem.number(name, side) for side in sides)
+            limits[name] = max(low, one), min(high, other)
     start = problem.start()
     first = problem.value(along, start)
     if goal == first:
         raise UcritError(f"{type(vehicle).model_id()}: {along} is to move, but starts at {first:g} and ends there")
     towards, scale = problem.setting_out(start, goal - first)
-    tests: dict[str, Any] = {f"eigenvalue {k}": _real_part(problem, k) for k in range(problem.states)}
-    tests["fold"] = _turning(problem, abs(goal - first))
+    sides = _Sides(problem, start)
+    tests: dict[str, Any] = {f"eigenvalue {k}": partial(sides.side, k) for k in range(problem.states)}
+    tests["fold"] = partial(_rate, problem, abs(goal - first), STANDING)
     try:
         curve = follow(
             problem.equations,
@@ -211,40 +222,44 @@ def steady_family(
             scale=scale,
             tests=tests,
             stops=problem.stops(first, goal, limits),
+            moves=partial(_rate, problem, abs(goal - first), 0.0),
             step=step / 4,
             largest=step,
         )
     except NoConvergenceError as error:
         raise UcritError(f"{type(vehicle).model_id()}: no family of steady motions sets out: {error}") from None
-    return _result(problem, curve)
+    return _result(problem, curve, sides)
 
 
-def _turning(problem: Problem, way: float) -> Any:
-    """Return the test that changes sign where the moving quantity turns back; zero where it stands still."""
-
-    def test(point: Any) -> float:
-        rate = float(problem.gradient(problem.along, point.y) @ point.tangent)
-        return rate if abs(rate) > STANDING * way else 0.0
-
-    return test
+def _rate(problem: Problem, way: float, least: float, point: Any) -> float:
+    """Return how fast the moving quantity goes, as a share of its way; 0 where that is less than the least."""
+    rate = float(problem.gradient(problem.along, point.y) @ point.tangent) / way
+    return rate if abs(rate) > least else 0.0
 
 
-def _real_part(problem: Problem, k: int) -> Any:
-    """Return the test that changes sign where the eigenvalue of the (k+1)-th largest real part crosses the axis."""
+class _Sides:
+    """On which side of the imaginary axis the eigenvalues of steady motions are, as far as rounding lets it be told."""
 
-    def test(point: Any) -> float:
-        eigenvalues = np.linalg.eigvals(point.jacobian[: problem.states, : problem.states])
-        return float(np.sort(eigenvalues.real)[::-1][k] - STILL * np.abs(eigenvalues).max())
+    def __init__(self, problem: Problem, start: Array) -> None:
+        self.states = problem.states
+        self.first = np.abs(problem.equations(start)[1][: self.states, : self.states])
 
-    return test
+    def sides(self, A: Array) -> Array:
+        """Return real parts, the largest first, and 0 where the sign may be rounding."""
+        values, wrong = real_parts(A, ROUNDING * np.maximum(np.abs(A), self.first))
+        return np.where(np.abs(values) > wrong, values, 0.0)
+
+    def side(self, k: int, point: Any) -> float:
+        """Return the (k+1)-th of these at a point."""
+        return float(self.sides(point.jacobian[: self.states, : self.states])[k])
 
 
-def _result(problem: Problem, curve: Curve) -> SteadyFamily:
+def _result(problem: Problem, curve: Curve, sides: _Sides) -> SteadyFamily:
     values, rates, A = problem.along_curve(curve.points, curve.tangents)
     eigenvalues = np.linalg.eigvals(A).astype(complex)
     order = np.lexsort((eigenvalues.imag, -eigenvalues.real), axis=-1)
     eigenvalues = np.take_along_axis(eigenvalues, order, axis=-1)
-    unstable = (eigenvalues.real > STILL * np.abs(eigenvalues).max(axis=-1, keepdims=True)).sum(axis=-1)
+    unstable = (sides.sides(A) > 0).sum(axis=-1)
     found: dict[str, list[float]] = {"fold": [], "branch": []}
     changes: list[Change] = []
     for crossing in curve.crossings:
@@ -257,7 +272,7 @@ def _result(problem: Problem, curve: Curve) -> SteadyFamily:
     turns = tuple(v for v in found["fold"]), tuple(found["branch"])
     end = problem.words(curve)
     return SteadyFamily(
-        problem.vehicle, problem.along, problem.freed, values, rates, problem.units, eigenvalues, unstable,
+        problem.vehicle, problem.along, problem.free, values, rates, problem.units, eigenvalues, unstable,
         tuple(changes), *turns, end,
     )  # fmt: skip
 

@@ -24,6 +24,9 @@ Array = npt.NDArray[Any]
 BACK = 1e-9
 """The family is back at its start when the moving quantity is this share of its way beyond it."""
 
+MOVING = 0.1
+"""An unknown whose share of change is this part of the largest one goes on where the moving quantity stands still."""
+
 CANNOT = "it cannot be followed further"
 """How the end of a family begins that broke off."""
 
@@ -44,11 +47,13 @@ class Problem:
             raise UcritError(f"{self.model}: no state can be steady or not: nothing depends on any of them")
         self._check_names(free, hold)
         movable = along in self.inputs or along in self.parameters
-        self.freed = (along, *free) if movable else free
+        held = tuple(name for name in hold if name in self.inputs)
+        self.freed = (*((along, *free) if movable else free), *held)
+        self.free = self.freed[: len(self.freed) - len(held)]
         self.hold = {name: self.number(name, value) for name, value in hold.items()}
         needed = len(self.hold) + 1
         if len(self.freed) != needed:
-            extra = needed - movable
+            extra = needed - movable - len(held)
             s = "s" * (extra != 1)
             raise UcritError(
                 f"{self.model}: {extra} input{s} or parameter{s} must be free to move "
@@ -60,7 +65,7 @@ class Problem:
 
     def _check_names(self, free: tuple[str, ...], hold: Mapping[str, Any]) -> None:
         movable = (*self.inputs, *self.parameters)
-        fixed = (*(self.labels[i] for i in self.used), *self.outputs)
+        fixed = (*(self.labels[i] for i in self.used), *self.outputs, *self.inputs)
         for name in free:
             if name not in movable:
                 raise UcritError(f"{self.model}: there is no input or parameter '{name}'{near_match(name, movable)}")
@@ -68,7 +73,7 @@ class Problem:
                 raise UcritError(f"{self.model}: {name} is named twice, as free and as moved, held or free")
         for name in hold:
             if name not in fixed:
-                raise UcritError(f"{self.model}: there is no state or output '{name}'{near_match(name, fixed)}")
+                raise UcritError(f"{self.model}: there is no state, input or output '{name}'{near_match(name, fixed)}")
         if self.along not in (*movable, *fixed):
             known = (*movable, *fixed)
             raise UcritError(f"{self.model}: there is no quantity '{self.along}'{near_match(self.along, known)}")
@@ -270,10 +275,22 @@ class Problem:
             "goal": f"{self.along} is where it was to go",
             "start": f"{self.along} is back where it began",
             "closed": "the family closes",
+            "still": self._standing(curve),
             "points": f"after {len(curve.points)} points",
             "failed": f"{CANNOT}: {curve.reason}",
         }
         return known.get(curve.end, curve.end)
+
+    def _standing(self, curve: Curve) -> str:
+        """Say that the moving quantity moves no more, and what does instead."""
+        unknowns = [self.labels[i] for i in self.used] + list(self.freed)
+        gone = np.abs(curve.tangents[-1]) / np.maximum(np.abs(curve.points[-1]), np.finfo(float).tiny)
+        moving = [name for name, share in zip(unknowns, gone, strict=True) if share > MOVING * gone.max()]
+        unit = self.units.get(self.along, "1")
+        value = f"{self.value(self.along, curve.points[-1]):.4g}{'' if unit == '1' else ' ' + unit}"
+        *some, last = moving
+        others = f"{', '.join(some)} and {last} go" if some else f"{last} goes"
+        return f"{self.along} stays at {value} while {others} on"
 
 
 def _null_vector(jacobian: Array) -> Array:

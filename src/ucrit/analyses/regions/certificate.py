@@ -95,8 +95,9 @@ class Certificate(Tabular):
         where = " and ".join(_range(self.vehicle, name, *ends) for name, ends in self.ranges.items())
         if self.proved:
             return f"{word} for {where}: proved with {self.boxes} box{'es' if self.boxes > 1 else ''}"
+        volume = min(100 * self.proved_share, 99.9999)  # never told as all of it
         return (
-            f"not decided for {where}: {_percent(self.proved_share)} of the volume is proved stable, no "
+            f"not decided for {where}: {volume:.6g} % of the volume is proved stable, no "
             f"counter-example was found, {len(self.undecided)} of the boxes are left after {self.boxes}; "
             "allow more boxes or take a smaller region"
         )
@@ -126,10 +127,6 @@ def _range(vehicle: Model, name: str, low: Fraction, high: Fraction) -> str:
     if name == type(vehicle).declaration.speed:
         return f"every {name} from {float(low):.6g} to {speed_text(float(high))}"
     return f"every {name} from {float(low):.10g} to {float(high):.10g}" + ("" if unit == "1" else f" {unit}")
-
-
-def _percent(share: float) -> str:
-    return f"{min(100 * share, 99.9999):.6g} %"
 
 
 def sense_of(vehicle: Model, ranges: Mapping[str, tuple[Fraction, Fraction]]) -> int:

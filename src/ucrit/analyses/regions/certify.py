@@ -39,7 +39,12 @@ MOST = 12
 
 
 def certify(
-    vehicle: Model, region: Mapping[str, Any], *, boxes: int = 100_000, progress: Progress | None = None
+    vehicle: Model,
+    /,
+    *,
+    boxes: int = 100_000,
+    progress: Progress | None = None,
+    **ranges: tuple[float | str, float | str] | str,
 ) -> Certificate:
     """Prove that every vehicle in a region is stable, or find one that is not.
 
@@ -48,13 +53,13 @@ def certify(
     vehicle
         With scalar parameters. Those outside the region stand for all numbers that are written or stored alike, one
         unit in the last place up and down.
-    region
-        Ends of the range of each parameter: a pair of numbers [SI], or text such as ``"20:110 km/h"``. Decimals
-        mean what they say: ``0.1`` is a tenth, not the double next to it.
     boxes
         How many boxes to look at before the rest is left undecided.
     progress
         Called with the number of boxes done and the most that are allowed.
+    **ranges
+        Ends of the range of each parameter of the region: a pair of numbers [SI], or text such as ``"20:110 km/h"``.
+        Decimals mean what they say: ``0.1`` is a tenth, not the double next to it.
 
     Returns
     -------
@@ -71,23 +76,22 @@ def certify(
     Examples
     --------
     >>> from ucrit import certify, load
-    >>> print(certify(load("caravan"), {"m": (1150, 1250), "U": "36:54 km/h"}))
+    >>> print(certify(load("caravan"), m=(1150, 1250), U="36:54 km/h"))
     stable for every m from 1150 to 1250 kg and every U from 10 to 15 m/s (54 km/h): proved with 3 boxes
-    >>> certify(load("caravan"), {"U": (10, 30)}).state
+    >>> certify(load("caravan"), U=(10, 30)).state
     'refuted'
     """
     if isinstance(boxes, bool) or not isinstance(boxes, int) or boxes < 1:
         raise UcritError(f"boxes must be a whole number above 0, got {boxes!r}")
-    ranges = _read(vehicle, region)
-    search = _Search(vehicle, ranges, boxes, progress)
+    search = _Search(vehicle, _read(vehicle, ranges), boxes, progress)
     return search.found()
 
 
 def _read(vehicle: Model, region: Mapping[str, Any]) -> dict[str, tuple[Fraction, Fraction]]:
     """Return the ranges exactly, checked against the parameters' bounds."""
     model, declared = type(vehicle), type(vehicle).declaration.parameters
-    if not isinstance(region, Mapping) or not region or len(region) > MOST:
-        raise UcritError(f"a region is a range for each of 1 to {MOST} parameters, such as {{'U': (5, 30)}}")
+    if not region or len(region) > MOST:
+        raise UcritError(f"a region is a range for each of 1 to {MOST} parameters, such as U=(5, 30)")
     for name in region:
         if name not in declared:
             raise UcritError(f"{model.model_id()}: there is no parameter '{name}'{near_match(name, declared)}")

@@ -16,6 +16,7 @@ import numpy.typing as npt
 
 from ...core.compiled import Compiled, compiled, deciding
 from ...core.model import Model
+from ...core.record import Record
 from ...numerics.bundles import hurwitz_bundle, real_parts
 from ...numerics.hurwitz import stable as hurwitz_stable
 
@@ -31,8 +32,8 @@ GRID = np.geomspace(1e-3, 1e3, 241)
 """Speeds, relative to the vehicle's own, that divide the axis where the model is no polynomial in the speed."""
 
 
-@dataclass(frozen=True, eq=False)
-class Crossings:
+@dataclass(frozen=True)
+class Crossings(Record):
     """Where stability changes with the size of the speed, for N vehicles.
 
     Attributes

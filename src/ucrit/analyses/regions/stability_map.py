@@ -82,7 +82,7 @@ class StabilityMap(Tabular):
 
 
 def stability_map(
-    vehicle: Model, /, *, engine: str = "auto", margins: bool = False, **grid: Sequence[float] | Array | str
+    vehicle: Model, /, *, engine: str = "auto", margins: bool = False, **ranges: Sequence[float] | Array | str
 ) -> StabilityMap:
     """Tell which combinations of some parameters' values are stable.
 
@@ -96,7 +96,7 @@ def stability_map(
         The answer is the same.
     margins
         Whether to compute the largest real part and the least damping ratio too, from eigenvalues.
-    **grid
+    **ranges
         Values of each parameter [SI]: a one-dimensional array, or text such as ``"1e3:1e6:400:log"``
         (see `parse_range`). The result's dimensions come in this order.
 
@@ -104,7 +104,8 @@ def stability_map(
     -------
     StabilityMap
         Verdicts are right for the numbers given: points where rounding might matter are decided by balanced
-        eigenvalues, and close to the boundary exactly (the first 2000 of them).
+        eigenvalues, and close to the boundary exactly. Of more than 2000 such points (100,000 of a simple model) some
+        that are stable by no more than rounding may be called not stable, never the other way round.
 
     Raises
     ------
@@ -120,12 +121,12 @@ def stability_map(
     >>> stability_map(load("caravan"), c=[0, 2000, 4000], U=[15, 30]).stable.tolist()
     [[False, False], [False, False], [True, False]]
     """
-    if not grid:
+    if not ranges:
         raise UcritError("a stability map needs ranges, such as b=[0.1, 0.2], k=[1e4, 1e5]")
-    if extra := [name for name in vehicle.dims if name not in grid]:
+    if extra := [name for name in vehicle.dims if name not in ranges]:
         raise UcritError(f"a stability map is that of one vehicle: give one value each for {', '.join(extra)}")
-    mapped = vehicle.with_(**read_ranges(vehicle, grid))
-    coords = {name: mapped.dims[name] for name in grid}
+    mapped = vehicle.with_(**read_ranges(vehicle, ranges))
+    coords = {name: mapped.dims[name] for name in ranges}
     shape = tuple(x.size for x in coords.values())
     points = 1
     for count in shape:
@@ -133,7 +134,7 @@ def stability_map(
     if points > MAX_POINTS:
         raise UcritError(
             f"{type(vehicle).model_id()}: a map of {points:,} points is too large; at most {MAX_POINTS:,} are held in "
-            "memory, 'stream' writes larger ones to disk"
+            "memory, a .zarr store takes more (in Python with 'stream')"
         )
     rates, damping = _margins(vehicle, coords) if margins else (None, None)
     return StabilityMap(mapped, coords, decide(vehicle, coords, engine), rates, damping)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import CancelledError
 from contextlib import contextmanager, nullcontext
@@ -36,6 +37,9 @@ MAKING = "ucrit, being made"
 
 LAYOUT = 1
 """Version of the layout of a store."""
+
+ADDRESS = re.compile(r"((tcp|tls|ucx|wss?|inproc)://)?(\[[^\]]+\]|[^/:\[\]\s]+)(:\d+|/.+)")
+"""What is handed to Dask: of another address it makes a client that nobody can close."""
 
 TIMEOUT = 10
 """Seconds to wait for a scheduler."""
@@ -220,6 +224,8 @@ def _connected(client: Any) -> Iterator[Any]:
             raise UcritError(f"the client is not connected to its scheduler: it is {client.status}")
         yield client
         return
+    if not ADDRESS.fullmatch(client):
+        raise UcritError(f"a scheduler's address is written such as tcp://10.0.0.1:8786, got {client!r}")
     try:
         made = distributed.Client(client, timeout=TIMEOUT, set_as_default=False)
     except (OSError, TimeoutError, ValueError) as error:

@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.compiled import coefficients, compiled, deciding_coefficients, direction
+from ...core.compiled import coefficients, compiled, direction
 from ...core.errors import UcritError
 from ...core.model import Model
 from ...numerics.hurwitz import right_half_plane
-from ...numerics.hurwitz import stable as hurwitz_stable
 from ..linear.modes import eigenvalues, growth, rigid_positions
 from ..results.convert import Series, Table, Tabular, complex_series, unit_of
+from ..stability.judge import settle
 from .ranges import parse_range
 
 Array = npt.NDArray[Any]
@@ -93,7 +93,8 @@ def sweep(vehicle: Model, /, *, progress: Progress | None = None, **ranges: Sequ
     Returns
     -------
     Sweep
-        Eigenvalues are those of LAPACK's balanced QR; the verdicts come from the characteristic polynomial.
+        Eigenvalues are those of LAPACK's balanced QR; the verdicts are those of `stability_map`, also next to the
+        boundary, where an eigenvalue's rounding might tell otherwise.
 
     Raises
     ------
@@ -168,5 +169,7 @@ def _evaluate(vehicle: Model) -> tuple[Array, ...]:
     a = np.stack([np.broadcast_to(x, shape) for x in coefficients(vehicle)[functions.structural_zeros :]], axis=-1)
     if not a[..., -1].all():
         raise UcritError(f"{type(vehicle).model_id()}: the equations are singular for these parameters")
-    decided = hurwitz_stable(deciding_coefficients(vehicle)) if a.shape[-1] > 1 else np.ones(shape, dtype=bool)
-    return values, growth(vehicle, values), right_half_plane(a), np.broadcast_to(decided, shape), damping
+    arrays = {name: x for name, x in zip(vehicle.values, vehicle.arguments(), strict=True) if np.ndim(x)}
+    stable = settle(vehicle, {name: np.broadcast_to(x, shape).ravel() for name, x in arrays.items()}).reshape(shape)
+    unstable = np.where(stable, 0, right_half_plane(a))
+    return values, growth(vehicle, values), unstable, stable, damping

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -75,6 +75,11 @@ class Uncertainty(Tabular):
         """Share of the vehicles that are unstable at every speed, 0 to 1."""
         return float(np.mean(self.critical == 0))
 
+    @property
+    def varies(self) -> bool:
+        """Whether not all of the vehicles have the same critical speed, or none."""
+        return bool((self.critical != self.critical[0]).any())
+
     def quantile(self, share: float) -> float:
         """Return the speed [m/s] at or below which this share of all vehicles first loses stability.
 
@@ -120,19 +125,23 @@ class Uncertainty(Tabular):
             Writes a speed [m/s].
         """
         if self.always == 1:
-            return f"unstable at every speed, in {self.samples} cases"
+            return f"unstable at every speed{self._limit(say)} in all {self.samples} cases"
+        if self.never == 1:
+            return f"stability is never lost{self._limit(say)} in all {self.samples} cases"
         low, middle, high = (self.quantile(share) for share in QUANTILES)
         if np.isinf(low):
-            text = f"in {1 - self.never:.3g} of all cases stability is lost at some speed"
-            return text if self.never < 1 else f"stability is never lost{self._limit(say)}, in {self.samples} cases"
+            return f"stability is lost{self._limit(say, 'at some speed')} in {_share(1 - self.never)} of all cases"
+        if middle == 0:
+            text = f"unstable at every speed{self._limit(say)} in {_share(self.always)} of all cases"
+            return text + (f"; never lost{self._limit(say)} in {_share(self.never)}" if self.never else "")
         ends = [_speed(speed, say) for speed in (middle, low, high)]
         text = f"critical speed {ends[0]} in the middle, in 9 of 10 cases from {ends[1]} to {ends[2]}"
         if self.never:
             text += f"; never lost{self._limit(say)} in {_share(self.never)} of all cases"
         return text + (f"; unstable at every speed in {_share(self.always)}" if self.always else "")
 
-    def _limit(self, say: Callable[[float], str]) -> str:
-        return "" if np.isinf(self.upto) else f" up to {say(self.upto)}"
+    def _limit(self, say: Callable[[float], str], otherwise: str = "") -> str:
+        return f" {otherwise}".rstrip() if np.isinf(self.upto) else f" up to {say(self.upto)}"
 
     def table(self) -> Table:
         """Return one row for each vehicle: its parameters and its critical speed."""
@@ -223,7 +232,12 @@ def uncertainty(
     columns = drawn(vehicle, unit_points(len(names), samples, seed))
     found, critical = lost(columns)
     _, given = lost({name: np.array([float(vehicle.values[name])]) for name in names}, samples - 1)
-    ranked = None
-    if indices:
-        ranked = influence(vehicle, samples, seed, limit, lambda points: lost(drawn(vehicle, points), samples)[1])
-    return Uncertainty(vehicle, columns, critical, float(given[0]), limit, found, ranked, seed)
+    result = Uncertainty(vehicle, columns, critical, float(given[0]), limit, found, None, seed)
+    if not indices:
+        return result
+    if not result.varies:
+        raise UcritError(
+            f"{type(vehicle).model_id()}: {result.sentence}: no tolerance has influence, ask for no indices"
+        )
+    ranked = influence(vehicle, samples, seed, limit, lambda points: lost(drawn(vehicle, points), samples)[1])
+    return replace(result, influence=ranked)

@@ -22,6 +22,7 @@ import numpy.typing as npt
 from ...core.compiled import labels, state_space
 from ...core.errors import MissingExtraError, UcritError
 from ...core.model import Model
+from ...core.record import Record
 from .matlab import matlab_names
 
 Array = npt.NDArray[Any]
@@ -98,7 +99,7 @@ def unit_of(vehicle: Model, name: str) -> str:
     return declared.unit if declared else "1"
 
 
-class Tabular:
+class Tabular(Record):
     """What results share: a table, and its conversions."""
 
     def table(self) -> Table:
@@ -218,7 +219,12 @@ def write_whole(path: PathLike, content: bytes) -> None:
     """
     target = Path(path)
     temporary = None
+    if not os.fspath(path) or target.is_dir():
+        raise UcritError(f"'{os.fspath(path)}' cannot be written: it is {'a folder' if os.fspath(path) else 'no name'}")
     try:
+        if target.exists() and not target.is_file():  # a device or a pipe takes what is written, and stays
+            target.write_bytes(content)
+            return
         with tempfile.NamedTemporaryFile("wb", dir=target.parent, delete=False, suffix=".tmp") as file:
             temporary = file.name
             file.write(content)

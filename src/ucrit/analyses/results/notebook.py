@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING, Any
 
 from ...core.html import lines, math_of, quantity, table, text, with_unit
-from .digits import decimal_text, rounded
+from .digits import percent
 
 if TYPE_CHECKING:
     from ..linear.modes import Mode
@@ -116,17 +116,6 @@ def remedies(found: Sequence[Remedy], advised: Sequence[Advice] = ()) -> str:
     if not rows:
         return "<p>nothing to remedy</p>"
     return table(rows, ("parameter", "", "value", "now", "change", "meaning"), "Remedies, each enough alone")
-
-
-def percent(share: float) -> str:
-    """Return a change in percent, two digits of it.
-
-    >>> percent(1.2613), percent(-0.0544)
-    ('+130 %', '-5.4 %')
-    """
-    if not math.isfinite(share):
-        return ""
-    return f"{'+' if share > 0 else ''}{decimal_text(rounded(100 * share, 2, 0))} %"
 
 
 def verdict(found: Verdict) -> str:

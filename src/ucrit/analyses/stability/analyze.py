@@ -12,6 +12,7 @@ from ...catalogue import load
 from ...core.compiled import direction
 from ...core.errors import UcritError
 from ...core.model import Model
+from ...core.record import Record
 from ..linear.modes import Mode, modes
 from .criteria import Criteria, Criterion, criteria
 from .critical import Critical, CriticalValues, critical
@@ -28,7 +29,7 @@ SCHEMA = 1
 
 
 @dataclass(frozen=True)
-class Analysis:
+class Analysis(Record):
     """What `analyze` finds.
 
     Attributes

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from ...core.compiled import direction
 from ...core.errors import UcritError
 from ...core.model import Model
+from ...core.record import Record
 from ..linear.modes import Mode, modes
 from .critical import CriticalValues, critical
 from .static_term import static_term
@@ -32,7 +33,7 @@ class Subject:
 
 
 @dataclass(frozen=True)
-class Comparison:
+class Comparison(Record):
     """Facts about several vehicles, in the order they were given.
 
     Attributes

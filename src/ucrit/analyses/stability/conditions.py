@@ -117,7 +117,7 @@ def hurwitz_determinant(a: Sequence[PolyElement], size: int, where: str = "model
     lengths = [row[:size] for row in hurwitz_matrix([len(c) for c in a])[:size]]
     too_long = UcritError(
         f"{where}: the conditions in all parameters, of order {len(a) - 1}, are too long to be read; keep a few "
-        'as symbols and take the vehicle\'s numbers for the rest: criteria(vehicle, free="few"), or free=["U", ...]'
+        'as symbols and take the vehicle\'s numbers for the rest: criteria(vehicle, free="few"), or free=["name", ...]'
     )
     if _permanent(lengths) > MAX_PRODUCTS:
         raise too_long

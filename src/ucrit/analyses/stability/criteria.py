@@ -18,6 +18,7 @@ from ...core.codegen import build
 from ...core.compiled import direction as direction_of
 from ...core.errors import UcritError, near_match
 from ...core.model import Model
+from ...core.record import Record
 
 if TYPE_CHECKING:
     from ...core.characteristic import CharacteristicPolynomial, Part
@@ -39,7 +40,7 @@ class Boundary:
 
 
 @dataclass(frozen=True)
-class Criterion:
+class Criterion(Record):
     """One inequality ``expression > 0`` that stability needs.
 
     Attributes
@@ -93,7 +94,7 @@ class Criterion:
 
 
 @dataclass(frozen=True)
-class Criteria:
+class Criteria(Record):
     """The conditions for stability of a model, in symbols.
 
     Attributes

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,6 +19,7 @@ from ...core.compiled import compiled, direction
 from ...core.errors import UcritError, near_match
 from ...core.model import Model
 from ...core.possible import allowed
+from ...core.units import to_si
 from ..linear.modes import Mode, modes
 from ..results.convert import Series, Table, Tabular
 from .criteria import Boundary, criteria
@@ -27,6 +28,9 @@ from .scan import scan
 
 NEAR = 1e-9
 """Share of a critical value by which a root through infinity is looked at beside it."""
+LIGHT = 299_792_458.0
+"""Speed of light [m/s]."""
+Edge = tuple[float, set[str]]
 
 
 @dataclass(frozen=True)
@@ -135,7 +139,7 @@ class CriticalValues(Tabular):
 
 
 def critical(
-    vehicle: Model, parameter: str | None = None, lower: float | None = None, upper: float | None = None
+    vehicle: Model, parameter: str | None = None, lower: float | str | None = None, upper: float | str | None = None
 ) -> CriticalValues:
     """Find every value of a parameter at which a vehicle's stability changes.
 
@@ -146,7 +150,8 @@ def critical(
     parameter
         The speed by default.
     lower, upper
-        Range [SI]; by default all that the parameter's bounds allow (for a speed, all of its present sign).
+        Range [SI, or text with a unit]; by default all that the parameter's bounds allow (for a speed, all of its
+        present sign).
 
     Returns
     -------
@@ -173,12 +178,21 @@ def critical(
     if found is None:
         found = scan(vehicle, name, lo, hi)
     edges, stable = found
+    if type(vehicle).declaration.parameters[name].is_speed:
+        edges, stable = _slower_than_light(edges, stable)
     values = tuple(
         _describe(vehicle, name, value, kinds, "below" if before else "above")
         for (value, kinds), before, after in zip(edges, stable, stable[1:], strict=False)
         if before != after
     )
     return CriticalValues(vehicle, name, lo, hi, values, stable[0], exact)
+
+
+def _slower_than_light(edges: Sequence[Edge], stable: Sequence[bool]) -> tuple[Sequence[Edge], Sequence[bool]]:
+    """Leave out speeds that no vehicle has: they come from terms that cancel but for the rounding of given numbers."""
+    kept = [i for i, (value, _) in enumerate(edges) if abs(value) < LIGHT]
+    first = kept[0] if kept else len(edges) if edges and edges[0][0] < 0 else 0
+    return [edges[i] for i in kept], stable[first : first + len(kept) + 1]
 
 
 def parameter_name(vehicle: Model, parameter: str | None) -> str:
@@ -194,13 +208,13 @@ def parameter_name(vehicle: Model, parameter: str | None) -> str:
     return name
 
 
-def _range(vehicle: Model, name: str, lower: float | None, upper: float | None) -> tuple[float, float]:
+def _range(vehicle: Model, name: str, lower: float | str | None, upper: float | str | None) -> tuple[float, float]:
     declared = allowed(vehicle, name)
     least, most = declared.lower, declared.upper
     if declared.is_speed:
         least, most = (max(least, 0.0), most) if direction(vehicle) > 0 else (least, min(most, 0.0))
-    lo = least if lower is None else max(float(lower), least)
-    hi = most if upper is None else min(float(upper), most)
+    lo = least if lower is None else max(to_si(lower, declared.unit, name), least)
+    hi = most if upper is None else min(to_si(upper, declared.unit, name), most)
     if not lo < hi:
         raise UcritError(
             f"{name}: the range from {lo:g} to {hi:g} {declared.unit} is empty; {name} must be {declared.allowed}"

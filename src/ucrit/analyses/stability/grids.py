@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise, product
 from typing import Any
@@ -10,8 +10,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...core.bounds import coefficient_bounds
 from ...core.compiled import Compiled, compiled, direction
 from ...core.model import Model
+from ...numerics.rounded import slacks
 
 Array = npt.NDArray[Any]
 Tile = tuple[slice, ...]
@@ -51,7 +53,7 @@ class Grid:
 
 def tiles(grid: Grid, most: int) -> Iterator[Tile]:
     """Split a grid where a parameter changes its sign or by more than `SPAN`, and further to at most so many points."""
-    for tile in product(*(_segments(x) for x in grid.axes.values())):
+    for tile in product(*(segments(x) for x in grid.axes.values())):
         sizes = [s.stop - s.start for s in tile]
         steps, room = [], most
         for size in reversed(sizes):
@@ -64,8 +66,8 @@ def tiles(grid: Grid, most: int) -> Iterator[Tile]:
         yield from product(*pieces)
 
 
-def _segments(x: Array) -> list[slice]:
-    """Runs of rising values of one sign in which the size changes by at most a factor `SPAN`."""
+def segments(x: Array) -> list[slice]:
+    """Return runs of rising values of one sign in which the size changes by at most a factor `SPAN`."""
     size = np.where(x == 0, 1.0, np.abs(x))
     label = np.sign(x) * (5000 + np.floor(np.log(size) / np.log(SPAN)))
     edges = [0, *(np.flatnonzero(np.diff(label)) + 1), x.size]
@@ -76,3 +78,16 @@ def flat(grid: Grid, tile: Tile, inside: Array) -> Array:
     """Flat indices, in the whole grid, of the true entries of a tile."""
     place = [i + s.start for i, s in zip(np.nonzero(inside), tile, strict=True)]
     return np.asarray(np.ravel_multi_index(tuple(place), grid.shape), dtype=np.int64)
+
+
+def limits(functions: Compiled, arguments: Sequence[Any]) -> Array:
+    """Return what the kernels compare with, for a whole tile: errors of the conditions, up to degree 4 their inverses.
+
+    Errors count twice: ordering by powers of the inner parameter, and Horner's rule, round at most as often again.
+    """
+    sizes, errors = coefficient_bounds(functions, arguments, whole=True)
+    with np.errstate(all="ignore"):
+        errors = [2 * x for x in errors]
+        if len(sizes) > 5:
+            return np.array([float(x) for x in errors]) + 1e-300
+        return 1 / (np.array([float(x) for x in slacks(sizes, errors)]) + 1e-300)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from fractions import Fraction
 from typing import Any, NamedTuple
@@ -17,10 +17,11 @@ from ...core.compiled import Compiled, compiled, deciding, direction, state_spac
 from ...core.errors import UcritError
 from ...core.model import Model
 from ...numerics.matrices import eigenvalues_with_errors
-from ...numerics.rounded import judged, slacks
-from ...numerics.routh import routh
+from ...numerics.rounded import judged
+from ...numerics.routh import all_decay
 from ..linear.modes import growth
-from .grids import Grid, Tile, flat, tiles
+from .device import by_device
+from .grids import Grid, Tile, flat, limits, tiles
 
 Array = npt.NDArray[Any]
 
@@ -29,12 +30,6 @@ BLOCK = 2**16
 
 TILE = 2**22
 """Points that a compiled kernel handles together."""
-
-DEVICE_TILE = 2**26
-"""Points that a graphics processor handles together."""
-
-THREADS = 128
-"""Threads of a block on a graphics processor."""
 
 ONE_THREAD = 10**7
 """Points below which threads do not pay."""
@@ -46,7 +41,10 @@ CLEAR = 1e-7
 """Real part, as a share of the largest eigenvalue, below which no eigenvalue decides."""
 
 EXACT_POINTS = 2000
-"""Points of one grid that are settled in exact arithmetic; further ones by the sign of the largest real part."""
+"""Points of one grid that are settled exactly at least; further ones are stable if an error bound proves it."""
+
+EXACT_OPERATIONS = 10**7
+"""Exact operations for the coefficients of one grid's points, where that makes more points: some seconds."""
 
 
 def decide(vehicle: Model, axes: Mapping[str, Array], engine: str) -> Array:
@@ -83,13 +81,14 @@ def _chosen(grid: Grid, engine: str) -> str:
 
 def _everywhere(grid: Grid, engine: str, codes: Array) -> Array:
     """Write codes for the whole grid, tile by tile on all cores; return the flat indices of those that are open."""
+    if engine == "cuda":
+        return by_device(grid, codes)
     work: Callable[[Tile], Array] = {
         "numpy": lambda tile: _by_numpy(grid, tile, codes),
         "numba": lambda tile: _by_numba(grid, tile, codes),
-        "cuda": lambda tile: _by_cuda(grid, tile, codes),
     }[engine]
     tiles = tiles_of(grid, engine)
-    if codes.size < ONE_THREAD or engine == "cuda":
+    if codes.size < ONE_THREAD:
         found = [work(tile) for tile in tiles]
     else:
         with ThreadPoolExecutor(len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else None) as pool:
@@ -99,7 +98,7 @@ def _everywhere(grid: Grid, engine: str, codes: Array) -> Array:
 
 def tiles_of(grid: Grid, engine: str) -> Iterator[Tile]:
     """Split a grid into the tiles of an engine."""
-    return tiles(grid, {"numpy": BLOCK, "numba": TILE, "cuda": DEVICE_TILE}[engine])
+    return tiles(grid, {"numpy": BLOCK, "numba": TILE}[engine])
 
 
 def _by_numpy(grid: Grid, tile: Tile, codes: Array) -> Array:
@@ -112,17 +111,6 @@ def _by_numpy(grid: Grid, tile: Tile, codes: Array) -> Array:
     sure, open_ = judged(a, *coefficient_bounds(functions, arguments, whole=True))
     codes[tile] = sure
     return flat(grid, tile, open_) if open_.any() else np.zeros(0, dtype=np.int64)
-
-
-def _limits(functions: Compiled, arguments: Sequence[Any]) -> Array:
-    """What the kernels compare with, for a whole tile.
-
-    Errors count twice: ordering by powers of the inner parameter, and Horner's rule, round at most as often again.
-    """
-    sizes, errors = coefficient_bounds(functions, arguments, whole=True)
-    with np.errstate(all="ignore"):
-        errors = [2 * x for x in errors]
-        return np.array([float(x) for x in (slacks(sizes, errors) if len(sizes) < 6 else errors)]) + 1e-300
 
 
 def _split(grid: Grid, tile: Tile) -> tuple[list[int], int, Array, Array, Array]:
@@ -146,42 +134,21 @@ def _by_numba(grid: Grid, tile: Tile, codes: Array) -> Array:
     kernel = kernels.processor_kernel(functions, tuple(outer), inner)
     fixed = np.array([np.ravel(x)[0] for x in arguments], dtype=float)
     whole = codes.reshape(-1, grid.shape[-1])
-    count = kernel(fixed, _limits(functions, arguments), rows, values, tile[-1].start, along, whole)
+    count = kernel(fixed, limits(functions, arguments), rows, values, tile[-1].start, along, whole)
     return flat(grid, tile, codes[tile] == kernels.OPEN) if count else np.zeros(0, dtype=np.int64)
-
-
-def _by_cuda(grid: Grid, tile: Tile, codes: Array) -> Array:
-    if (functions := grid.functions(tile)).order == functions.structural_zeros:
-        codes[tile] = 1
-        return np.zeros(0, dtype=np.int64)
-    codes[tile] = on_device(grid, tile).copy_to_host().reshape(codes[tile].shape)
-    return flat(grid, tile, codes[tile] == kernels.OPEN)
-
-
-def on_device(grid: Grid, tile: Tile) -> Any:
-    """Return the codes of a tile as an array of the graphics processor, shape (rows, points of a row)."""
-    cuda, functions, arguments = kernels.needed("cuda"), grid.functions(tile), grid.arguments(tile)
-    outer, inner, _, values, along = _split(grid, tile)
-    kernel = kernels.graphics_kernel(functions, tuple(outer), inner)
-    fixed = np.array([np.ravel(x)[0] for x in arguments], dtype=float)
-    rows, along = np.arange(len(values)), np.ascontiguousarray(along)
-    out = cuda.device_array((rows.size, along.size), dtype=np.uint8)
-    given = [cuda.to_device(x) for x in (fixed, _limits(functions, arguments), rows, values)]
-    blocks = min(rows.size, 2**14), min(-(-along.size // THREADS), 2**10)
-    kernel[blocks, THREADS](*given, 0, cuda.to_device(along), out)
-    return out
 
 
 def settle(vehicle: Model, columns: Mapping[str, Array]) -> Array:
     """Tell of single points, one value of each column, whether the vehicle is stable; shape (points,).
 
     Points at which rounding cannot matter are judged by the polynomial, the others by balanced eigenvalues where
-    those keep clear of the imaginary axis, and the rest exactly for the numbers given.
+    those keep clear of the imaginary axis, and the rest exactly for the numbers given. Of very many that are left the
+    nearest to the axis are; further ones are called stable if the error bound of their eigenvalues proves it.
     """
     stable = np.zeros(len(next(iter(columns.values()))), dtype=bool)
     speed = type(vehicle).declaration.speed
     signs = np.sign(columns[speed]) if speed is not None and speed in columns else np.ones(stable.size)
-    left = EXACT_POINTS
+    left = max(EXACT_POINTS, EXACT_OPERATIONS // _operations(vehicle))
     for sign in np.unique(signs):
         part = np.flatnonzero(signs == sign)
         for start in range(0, part.size, BLOCK):
@@ -220,6 +187,12 @@ def judged_points(vehicle: Model, columns: Mapping[str, Array]) -> Judged:
     return Judged(sure, open_, np.abs(a[-1]) > errors[-1], np.array(a))
 
 
+def _operations(vehicle: Model) -> int:
+    """How many operations the coefficients take."""
+    text = compiled(type(vehicle), direction(vehicle)).source
+    return max(1, sum(map(text.count, "+-*/")))
+
+
 def _settled(vehicle: Model, columns: Mapping[str, Array], exact: int) -> tuple[Array, int]:
     """Verdicts of a block of points, and how many of them took exact arithmetic."""
     known = judged_points(vehicle, columns)
@@ -227,10 +200,10 @@ def _settled(vehicle: Model, columns: Mapping[str, Array], exact: int) -> tuple[
     if not rest.size:
         return stable, 0
     columns = {name: x[rest] for name, x in columns.items()}
-    rates, clear = _rates(vehicle.along("point", **columns))
-    clear &= known.signed[rest]  # else a root next to infinity has an eigenvalue of either sign
-    stable[rest] = rates < 0
-    near = np.flatnonzero(~clear)
+    rates, errors = _rates(vehicle.along("point", **columns))
+    errors[~known.signed[rest]] = np.inf  # a root next to infinity has an eigenvalue of either sign
+    stable[rest] = rates < -errors
+    near = np.flatnonzero(~(np.abs(rates) > np.maximum(CLEAR, errors)))
     near = near[np.argsort(np.abs(rates[near]), kind="stable")][:exact]
     functions = compiled(type(vehicle), direction(vehicle.along("point", **columns)))
     for k in near:
@@ -239,25 +212,25 @@ def _settled(vehicle: Model, columns: Mapping[str, Array], exact: int) -> tuple[
 
 
 def _rates(many: Model) -> tuple[Array, Array]:
-    """Largest real part as a share of the largest modulus, nan if the equations are singular; and where it is clear."""
+    """Largest real part and a bound of its error, as shares of the largest modulus; nan for singular equations."""
     rates = np.full(next(iter(many.dims.values())).size, np.nan)
-    clear = np.zeros(rates.size, dtype=bool)
+    bounds = np.full(rates.size, np.inf)
     try:
         A = state_space(many).A
     except UcritError:
-        return rates, clear
+        return rates, bounds
     A = np.broadcast_to(A, (rates.size, *A.shape[-2:]))
     finite = np.isfinite(A).all(axis=(-2, -1))
     if not finite.any():
-        return rates, clear
+        return rates, bounds
     values, errors = eigenvalues_with_errors(A[finite])
     size = np.abs(values).max(axis=-1)
     size[size == 0] = 1
     rates[finite] = growth(many, values) / size
-    clear[finite] = np.abs(rates[finite]) > np.maximum(CLEAR, errors / size)
+    bounds[finite] = errors / size
     if compiled(type(many), direction(many)).undamped:
-        clear &= rates > 0  # no motion can decay: only growth is clear
-    return rates, clear
+        bounds[~(rates > 0)] = np.inf  # no motion can decay: only growth is clear
+    return rates, bounds
 
 
 def _exactly(functions: Compiled, values: Mapping[str, Any]) -> bool:
@@ -266,7 +239,4 @@ def _exactly(functions: Compiled, values: Mapping[str, Any]) -> bool:
         a = deciding(functions, functions.exact_coefficients(numbers))
     except ZeroDivisionError:
         return False
-    if not a[-1]:
-        return False
-    array = routh(a)
-    return array.right_half_plane == 0 == array.imaginary_axis
+    return bool(a[-1]) and all_decay(a)

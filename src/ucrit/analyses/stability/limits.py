@@ -22,6 +22,7 @@ from ...core.compiled import direction as direction_of
 from ...core.errors import UcritError
 from ...core.limits import check_names, limit_polynomial
 from ...core.model import Model
+from ...core.record import Record
 from .criteria import Boundary, Criteria, Criterion
 
 
@@ -65,7 +66,7 @@ class LostRoots:
 
 
 @dataclass(frozen=True)
-class LimitResult:
+class LimitResult(Record):
     """A model in the limit of some of its parameters.
 
     Attributes

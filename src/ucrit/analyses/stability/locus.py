@@ -13,6 +13,7 @@ from ...core.declare import Parameter
 from ...core.errors import UcritError
 from ...core.model import Model
 from ...core.possible import allowed
+from ...core.units import to_si
 from ...numerics.tracking import track_adaptive
 from ..linear.modes import eigensystem, eigenvalues, growth, modes
 from ..results.convert import Series, Table, Tabular, complex_series, unit_of
@@ -29,6 +30,9 @@ FARTHEST = 10.0
 
 STEP = 0.05
 """Change of an eigenvalue in one step, as a share of its size, above which the step is halved."""
+
+MOST_POINTS = 10_000_000
+"""Points that a locus may have."""
 
 TRACKED = 2000
 """Points that are tracked; further ones are filled in between."""
@@ -84,8 +88,8 @@ class Locus(Tabular):
 def locus(
     vehicle: Model,
     parameter: str | None = None,
-    lower: float | None = None,
-    upper: float | None = None,
+    lower: float | str | None = None,
+    upper: float | str | None = None,
     points: int = 400,
     depth: int = 8,
 ) -> Locus:
@@ -98,8 +102,8 @@ def locus(
     parameter
         The speed by default.
     lower, upper
-        Range [SI]. By default it ends at 1.5 times the present or the largest critical value, whichever is
-        larger (critical values beyond ten times the present one aside), and starts at a hundredth of that.
+        Range [SI, or text with a unit]. By default it ends at 1.5 times the present or the largest critical value,
+        whichever is larger (critical values beyond ten times the present one aside), and starts at a hundredth of that.
     points
         Even steps to begin with; where eigenvalues move fast some are halved, up to six times.
     depth
@@ -126,8 +130,8 @@ def locus(
     name = parameter_name(vehicle, parameter)
     if vehicle.dims:
         raise UcritError(f"a root locus is that of one vehicle: give one value each for {', '.join(vehicle.dims)}")
-    if isinstance(points, bool) or not isinstance(points, int) or points < 2:
-        raise UcritError(f"a root locus needs 2 points or more, got {points!r}")
+    if isinstance(points, bool) or not isinstance(points, int) or not 2 <= points <= MOST_POINTS:
+        raise UcritError(f"a root locus needs 2 to {MOST_POINTS} points, got {points!r}")
     if isinstance(depth, bool) or not isinstance(depth, int) or not 0 <= depth <= 50:
         raise UcritError(f"depth must be a whole number from 0 to 50, got {depth!r}")
     lo, hi = _range(vehicle, name, lower, upper)
@@ -158,10 +162,10 @@ def _tracked(vehicle: Model, name: str, grid: Array, reference: float, depth: in
     return Locus(vehicle, name, unit_of(vehicle, name), grid, branches, named, reference)
 
 
-def _range(vehicle: Model, name: str, lower: float | None, upper: float | None) -> tuple[float, float]:
+def _range(vehicle: Model, name: str, lower: float | str | None, upper: float | str | None) -> tuple[float, float]:
     """Complete the range and refuse one that is empty or not allowed."""
     parameter = allowed(vehicle, name)
-    lo, hi = (None if end is None else _finite(end, name) for end in (lower, upper))
+    lo, hi = (None if end is None else _finite(end, name, parameter.unit) for end in (lower, upper))
     if lo is None or hi is None:
         near, far = _default(vehicle, name, parameter)
         lo, hi = (near if lo is None else lo), (far if hi is None else hi)
@@ -171,11 +175,8 @@ def _range(vehicle: Model, name: str, lower: float | None, upper: float | None) 
     return lo, hi
 
 
-def _finite(end: float, name: str) -> float:
-    try:
-        value = float(end)
-    except (TypeError, ValueError):
-        raise UcritError(f"{name}: a range has two ends, each a number, got {type(end).__name__}") from None
+def _finite(end: float | str, name: str, unit: str) -> float:
+    value = to_si(end, unit, name)
     if not math.isfinite(value):
         raise UcritError(f"{name}: the ends of a range must be finite, got {value:g}")
     return value

@@ -6,6 +6,7 @@ and it can be trimmed if the moment vanishes at a positive lift (Karnopp 2004, s
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -27,6 +28,10 @@ PAIRS = {("C_L", "C_M"): ("1", "1"), ("L", "M"): ("N", "N m")}
 
 DOWNWARD = ("w", "W")
 """Names of a downward velocity [m/s]."""
+
+
+MOST_POINTS = 1_000_000
+"""Points that a moment line may have."""
 
 
 @dataclass(frozen=True)
@@ -165,7 +170,11 @@ def static_margin(vehicle: Model) -> StaticMargin:
 
 
 def moment_line(
-    vehicle: Model, input: str = "", settings: Any = None, angles: tuple[float, float] = (-0.1, 0.2), points: int = 61
+    vehicle: Model,
+    input: str = "",
+    settings: Sequence[float] | Array | None = None,
+    angles: tuple[float, float] = (-0.1, 0.2),
+    points: int = 61,
 ) -> MomentLine:
     """Return the moment about the centre of mass against the lift, as the angle of attack changes.
 
@@ -200,6 +209,8 @@ def moment_line(
         raise UcritError(f"{cls.model_id()}: there is no input '{input}'{near_match(input, inputs)}")
     if bool(input) != (settings is not None):
         raise UcritError(f"{cls.model_id()}: give the name of an input together with its settings")
+    if not 2 <= points <= MOST_POINTS:
+        raise UcritError(f"points must be a whole number from 2 to {MOST_POINTS}, got {points}")
     moving, arguments = motion(cls), vehicle.arguments()
     values = np.atleast_1d(np.asarray(settings if input else 0.0, dtype=float))
     w, u = (np.repeat(v[:, None], points, axis=1)[:, None].repeat(len(values), 1) for v in moving.basic(arguments))

@@ -14,6 +14,7 @@ from ...core.compiled import compiled, deciding_coefficients, direction
 from ...core.errors import UcritError
 from ...core.model import Model
 from ...core.possible import allowed
+from ...core.units import to_si
 from ...numerics.hurwitz import stable
 from ..results.convert import Series, Table, Tabular
 from ..results.digits import decimal_text, rounded
@@ -125,7 +126,7 @@ class Remedies(tuple[Remedy, ...], Tabular):
         return notebook.remedies(self)
 
 
-def remedies(vehicle: Model, upto: float | None = None, since: float = 0.0) -> Remedies:
+def remedies(vehicle: Model, upto: float | str | None = None, since: float | str = 0.0) -> Remedies:
     """Find, for each parameter, the smallest change of it alone that makes the vehicle stable at all speeds up to one.
 
     Parameters
@@ -133,9 +134,10 @@ def remedies(vehicle: Model, upto: float | None = None, since: float = 0.0) -> R
     vehicle
         With scalar parameters.
     upto
-        Speed [m/s] up to which it shall be stable; its own speed by default.
+        Speed [m/s, or text with a unit] up to which it shall be stable; its own speed by default.
     since
-        Speed [m/s] from which it shall be; for vehicles such as two-wheelers that cannot be at a standstill.
+        Speed [m/s, or text with a unit] from which it shall be; for vehicles such as two-wheelers that cannot be at a
+        standstill.
 
     Returns
     -------
@@ -161,8 +163,10 @@ def remedies(vehicle: Model, upto: float | None = None, since: float = 0.0) -> R
     return Remedies(vehicle, sorted(found, key=lambda r: (r.value is None, abs(r.relative))))
 
 
-def _speeds(vehicle: Model, name: str, upto: float | None, since: float) -> Array:
-    top = float(vehicle.values[name]) if upto is None else float(upto)
+def _speeds(vehicle: Model, name: str, upto: float | str | None, since: float | str) -> Array:
+    top = float(vehicle.values[name]) if upto is None else to_si(upto, "m/s", "upto")
+    since = to_si(since, "m/s", "since")
+    type(vehicle).declaration.parameters[name].check(top, type(vehicle).model_id())
     if not abs(since) < abs(top):
         raise UcritError(f"the speeds from {since:g} to {top:g} m/s are an empty range")
     return np.asarray(since + (top - since) * np.linspace(0, 1, SPEEDS + 1)[1:])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import keyword
 import re
+import unicodedata
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from html import escape
@@ -122,7 +123,10 @@ def routh(polynomial: str | Sequence[Any], variable: str = "s", positive: Iterab
     for name in taken:
         if name not in names:
             raise UcritError(f"there is no symbol '{name}' to be positive{near_match(name, names)}")
-    array, text = array_of(a, variable), _written(a, variable)
+    try:
+        array, text = array_of(a, variable), _written(a, variable)
+    except ValueError as error:  # numerics has no error of its own
+        raise UcritError(str(error)) from None
     if names:
         conditions, settled, either_sign = _conditions(a)
         return RouthTest(text, array, conditions, settled, taken, either_sign)
@@ -144,6 +148,7 @@ def _read(text: str, variable: str, positive: Sequence[str]) -> list[Any]:
 
     from ...core.expressions import FUNCTIONS, parse
 
+    text = re.sub("[⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda raised: "^" + unicodedata.normalize("NFKC", raised[0]), text)
     tokens = list(_tokens(text))
     names = {token for kind, token in tokens if kind == "name"} - {variable, "pi", *FUNCTIONS}
     symbols = {_safe(name): sp.Symbol(name, real=True, positive=name in positive or None) for name in names}
@@ -154,6 +159,10 @@ def _read(text: str, variable: str, positive: Sequence[str]) -> list[Any]:
         coefficients = sp.Poly(sp.cancel(sp.sympify(expression)), s).all_coeffs()[::-1]
     except (sp.PolynomialError, RecursionError, MemoryError):
         raise no_polynomial from None
+    except (TypeError, ValueError, OverflowError) as error:
+        if isinstance(error, UcritError):
+            raise
+        raise UcritError(f"'{text}' holds a number that is not finite") from None
     if any(c.has(s) for c in coefficients):
         raise no_polynomial
     return _exact(coefficients)

@@ -9,11 +9,12 @@ import numpy as np
 from ...core.compiled import coefficients, compiled, direction
 from ...core.errors import UcritError
 from ...core.model import Model
+from ...core.record import Record
 from ...numerics.routh import routh
 
 
 @dataclass(frozen=True)
-class Verdict:
+class Verdict(Record):
     """Stability of the basic motion for small disturbances.
 
     Attributes

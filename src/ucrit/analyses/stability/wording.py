@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-import re
 from typing import TYPE_CHECKING
 
-from .criteria import in_words
+from ..results.digits import decimal_text, rounded
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -25,7 +24,17 @@ def speed_text(speed: float) -> str:
     >>> speed_text(23.41)
     '23.41 m/s (84.3 km/h)'
     """
-    return f"{speed:.4g} m/s ({speed * 3.6:.3g} km/h)"
+    on_the_road = speed * 3.6
+    return f"{speed:.4g} m/s ({on_the_road:{'.0f' if 1000 <= abs(on_the_road) < 1e6 else '.3g'}} km/h)"
+
+
+def _two_digits(value: float) -> str:
+    """Return a number in two digits, without an exponent where that is short.
+
+    >>> _two_digits(175.2), _two_digits(0.0254)
+    ('180', '0.025')
+    """
+    return decimal_text(rounded(value, 2, 0))
 
 
 def describe(analysis: Analysis, say: Callable[[float], str] = speed_text) -> str:
@@ -73,7 +82,7 @@ def _growth(analysis: Analysis) -> str:
         how = f"the {subject} oscillation grows at {mode.frequency_hz:.2g} Hz"
     else:
         how = f"the {subject} motion runs away"
-    return f"{how}, doubling in {mode.time_to_double:.2g} s"
+    return f"{how}, doubling in {_two_digits(mode.time_to_double)} s"
 
 
 def _beyond(analysis: Analysis, top: float, say: Callable[[float], str]) -> str:
@@ -94,11 +103,9 @@ def _position(analysis: Analysis) -> str:
     if not count:
         return ""
     roots = "a zero root" if count == 1 else f"{count} zero roots"
-    names = " ".join(mode.name for mode in analysis.modes if mode.eigenvalue == 0)
-    moving = bool(re.search(r"\b(velocity|rate)\b", names))
-    at_rest = ["places", "directions"] if "position" in names or not moving else []
-    what = in_words([*at_rest, *(["speeds"] if moving else [])])
-    return f" ({roots}: {what} that nothing restores, harmless)"
+    staying = [mode.name for mode in analysis.modes if mode.eigenvalue == 0]
+    names = " and ".join(filter(None, (", ".join(staying[:-1]), *staying[-1:])))
+    return f" ({roots}: {names}, which nothing restores, harmless)"
 
 
 def _at_a_point(analysis: Analysis) -> str:

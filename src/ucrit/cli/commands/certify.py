@@ -46,7 +46,7 @@ def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], box
     refuse_both(region, changed)
     subject = load_vehicle(vehicle, changed)
     with progress("boxes") as advance:
-        found = certify(subject, region, boxes=boxes, progress=advance)
+        found = certify(subject, boxes=boxes, progress=advance, **region)
     from ..render_sure import show_certificate
     from ..terminal import terminal
 

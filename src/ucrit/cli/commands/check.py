@@ -32,11 +32,12 @@ def command(model: str, published: str | None) -> int:
     from ...analyses.about.show import resolve
     from ...catalogue import models_in_file
     from ...checks import check_model
+    from ...checks.published import read_published
     from ..render_model import show_report
     from ..terminal import terminal
 
     if published is not None:
-        _refuse_unreadable(published)
+        read_published(Path(published))  # a file that is wrong is wrong input, not a check that fails
     if model.endswith(".py"):
         subjects: list[Any] = list(models_in_file(Path(model)))
     else:
@@ -46,16 +47,3 @@ def command(model: str, published: str | None) -> int:
     for report in reports:
         show_report(terminal(), report)
     return 0 if all(report.ok for report in reports) else FAILED
-
-
-def _refuse_unreadable(path: str) -> None:
-    """Tell a file that cannot be read, which is wrong input, from a check that fails."""
-    import tomllib
-
-    from ...core.errors import UcritError
-    from ...core.files import read_text
-
-    try:
-        tomllib.loads(read_text(Path(path)))
-    except (ValueError, RecursionError) as error:
-        raise UcritError(f"{path}: not valid TOML: {error}") from None

@@ -99,7 +99,7 @@ def _show(found: LimitCycles, value: float, asked: bool, border: str | None, out
         _table(page, branch)
     if out is not None:
         page.line()
-        page.line(f"The cycles are in {out}")
+        page.line(f"Written to {out}")
 
 
 def _table(page: Any, branch: Any) -> None:

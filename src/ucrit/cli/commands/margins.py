@@ -42,7 +42,8 @@ def command(
     from ...analyses.linear.margins import driven_inputs, margins
     from ...analyses.regions.sweep import read_ranges
     from ...core.errors import UcritError
-    from ..output import to_stdout, writer
+    from ..output import to_stdout, writer, written
+    from ..terminal import Page, terminal, vehicle_head
 
     write = None if out is None else writer(out)
     subject = load_vehicle(vehicle, assignments(changes, "G=0.3"))
@@ -51,11 +52,16 @@ def command(
     spans = read_ranges(subject, read)
     if write is not None and len(names) > 1:
         raise UcritError(f"a file holds the margins at one input: choose --input {' or --input '.join(names)}")
+    page = Page(terminal())
+    if write is None and not spans:
+        vehicle_head(page, subject)
+        page.line()
     for name in names:
         found = margins(subject.with_(**spans), name)
-        if write is not None:
+        if write is not None and out is not None:
             write(found)
+            written(out)
         elif spans:
             to_stdout(found)
         else:
-            click.echo(str(found))
+            page.paragraph(str(found))

@@ -6,11 +6,12 @@ from typing import Any
 
 import click
 
-from ..output import to_stdout, writer
+from ..output import to_stdout, writer, written
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 from ..progress import progress
 
 ZARR = ".zarr"
+EXAMPLE = '"U=20:130:12 km/h"'
 
 
 @click.command("sweep", short_help="Stability over ranges of parameters, as a table.")
@@ -24,12 +25,10 @@ ZARR = ".zarr"
     shell_complete=complete_parameters,
     help="Change a parameter that is not swept; may be repeated.",
 )
-@click.option(
-    "-o", "--output", metavar="FILE", help="Write .csv, .nc (netCDF), .json, .mat or .zarr; else CSV on stdout."
-)
+@click.option("-o", "--out", metavar="FILE", help="Write .csv, .nc (netCDF), .json, .mat or .zarr; else CSV on stdout.")
 @click.option("--scheduler", metavar="ADDRESS", help="Let the workers of this Dask scheduler compute (only to .zarr).")
 def command(
-    vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], output: str | None, scheduler: str | None
+    vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], out: str | None, scheduler: str | None
 ) -> None:
     """Tabulate stability, growth, damping and eigenvalues for every combination of parameters.
 
@@ -53,31 +52,32 @@ def command(
     """
     from ...analyses.regions.sweep import sweep
 
-    if output is not None and output.endswith(ZARR):
-        _stream(vehicle, ranges, changes, output, scheduler)
+    read, changed = assignments(ranges, EXAMPLE), assignments(changes, "a=1.9")
+    refuse_both(read, changed)
+    if out is not None and out.endswith(ZARR):
+        stream_to(vehicle, read, changed, out, "sweep", scheduler)
         return
     if scheduler is not None:
         raise click.UsageError("--scheduler needs a store that workers can write to: give -o FILE.zarr too")
-    write = to_stdout if output is None else writer(output, pictures=(), more={ZARR: to_stdout})
-    subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
-    read = assignments(ranges, '"U=20:130:12 km/h"')
-    refuse_both(read, assignments(changes, "a=1.9"))
+    write = to_stdout if out is None else writer(out, pictures=(), more={ZARR: to_stdout})
+    subject = load_vehicle(vehicle, changed)
     with progress("sweep") as advance:
         result = sweep(subject, progress=advance, **read)
     write(result)
+    if out is not None:
+        written(out)
 
 
-def _stream(
-    vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], output: str, scheduler: str | None
+def stream_to(
+    vehicle: str, ranges: dict[str, Any], changes: dict[str, Any], store: str, kind: str, scheduler: str | None
 ) -> None:
-    """Write a sweep to a Zarr store, piece by piece."""
+    """Write a sweep or a map to a Zarr store, piece by piece."""
     from ...analyses.regions.stream import stream
 
-    read = assignments(ranges, '"U=20:130:12 km/h"')
-    refuse_both(read, assignments(changes, "a=1.9"))
-    subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
-    with progress("sweep") as advance:
-        stream(subject, output, kind="sweep", client=scheduler, progress=advance, **read)
+    subject = load_vehicle(vehicle, changes)
+    with progress(kind) as advance:
+        stream(subject, store, kind=kind, client=scheduler, progress=advance, **ranges)
+    written(store)
 
 
 def refuse_both(ranges: dict[str, Any], changes: dict[str, Any]) -> None:

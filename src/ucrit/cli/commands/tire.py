@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..output import writer
+from ..output import writer, written
 from ..parameters import Name, assignments
 
 if TYPE_CHECKING:
@@ -44,13 +44,14 @@ def command(
     write = None if out is None else writer(out)
     part = catalogue.tire(tire, **assignments(changes, 'mu=0.9 or "C=1 kN/deg"'))
     chosen = sorted(to_si(load, "N", "load") for load in loads) or list(LOADS)
-    factors = assignments(roads, "ice=0.1")
+    factors = assignments(roads, "ice=0.1", "road")
     surfaces = {name: to_si(value, "1", f"friction factor of road {name}") for name, value in factors.items()} or None
     curves = tire_curves(part, chosen, surfaces)
     _show(curves, tire)
-    if write is not None:
+    if write is not None and out is not None:
         write(curves)
-        click.echo(f"\nThe curves are in {out}")
+        print()
+        written(out)
 
 
 def _show(curves: TireCurves, name: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from ..output import writer
+from ..output import writer, written
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 from ..progress import progress
 
@@ -25,7 +25,7 @@ from ..progress import progress
 @click.option("--indices", is_flag=True, help="Tell which tolerances matter, by Sobol indices (needs SALib).")
 @click.option(
     "-o",
-    "--output",
+    "--out",
     metavar="FILE",
     help="Write the vehicles drawn (.csv .nc .json .mat) or a picture (.svg .png .pdf).",
 )
@@ -36,7 +36,7 @@ def command(
     samples: int,
     seed: int,
     indices: bool,
-    output: str | None,
+    out: str | None,
 ) -> None:
     """Draw many vehicles from the tolerances in VEHICLE's file and tell how their critical speeds are distributed.
 
@@ -57,13 +57,15 @@ def command(
     """
     from ...analyses.regions.uncertainty import uncertainty
 
-    write = None if output is None else writer(output)
+    write = None if out is None else writer(out)
     subject = load_vehicle(vehicle, assignments(changes, 'a=1.9 or "m=2 t"'))
     with progress("vehicles") as advance:
         found = uncertainty(subject, samples=samples, seed=seed, upto=upto, indices=indices, progress=advance)
-    if write is not None:
-        write(found)
     from ..render_sure import show_uncertainty
     from ..terminal import terminal
 
     show_uncertainty(terminal(), found)
+    if write is not None:
+        write(found)
+        print()
+        written(str(out))

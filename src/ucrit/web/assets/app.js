@@ -1,5 +1,6 @@
 // The page: what is chosen, what is asked, what is drawn. All state is here and in the link; the server keeps none.
 import { Newest, Problem, ask, request, save } from "./ask.js";
+import { CYCLES_KEY, HANDLING_KEY, cyclesPlot, handlingPlots, key, list } from "./beyond.js";
 import { fileDialog } from "./dialog.js";
 import { dampingPlot, frequencyPlot, locusPlot, mapPlot, steady } from "./draw.js";
 import { Film } from "./film.js";
@@ -20,6 +21,10 @@ const plots = {
   damping: new Plot($("damping"), { label: "Damping", ratio: 0.42 }),
   frequency: new Plot($("frequency"), { label: "Frequency", ratio: 0.34 }),
   map: new Plot($("map"), { label: "Stability map", ratio: 0.68, pick: pickOnMap }),
+  axles: new Plot($("axles"), { label: "What the axles give", ratio: 0.68 }),
+  curve: new Plot($("curve"), { label: "Handling curve", ratio: 0.68 }),
+  steer: new Plot($("steer"), { label: "Steer angle", ratio: 0.68 }),
+  amplitude: new Plot($("amplitude"), { label: "Limit cycles", ratio: 0.5 }),
 };
 const panel = new Panel($("rows"), change);
 const film = new Film($("film"));
@@ -31,6 +36,8 @@ const asides = {
   remedies: new Newest("api/remedies", found => remedyList($("remedies"), found, s.units, apply), sentence => { $("remedies").textContent = sentence; }),
   sure: new Newest("api/sure", found => { $("sure").textContent = found.sentence; }, sentence => { $("sure").textContent = sentence; }),
   motion: new Newest("api/motion", found => film.set(found), sentence => film.refuse(sentence)),
+  handling: new Newest("api/handling", showHandling, sentence => emptied("handling", sentence)),
+  cycles: new Newest("api/cycles", showCycles, sentence => emptied("cycles", sentence)),
   pin: new Newest("api/state", found => { s.pin.answer = found; draw(); }, sentence => { s.pin = null; problem(`The pinned design cannot be shown: ${sentence}`); draw(); }),
 };
 
@@ -87,8 +94,46 @@ function settled() {
   if (s.about.parameters.some(p => p.known)) asides.sure.push(base);
   askMotion();
   if ($("equations").open) loadEquations();
+  for (const name of Object.keys(BEYOND)) askBeyond(name);
   history.replaceState(null, "", link());
   document.documentElement.dataset.settled = String(Number(document.documentElement.dataset.settled || 0) + 1);
+}
+
+// --- beyond the linear verdict: asked only where it is looked at, since it takes seconds
+
+const BEYOND = { handling: ["axles", "curve", "steer"], cycles: ["amplitude"] };
+
+function askBeyond(name) {
+  if (!$(name).open || $(`${name}-card`).hidden) return;
+  const wanted = JSON.stringify([s.subject, s.values, s.units]);
+  if ($(name).dataset.key === wanted) return;
+  $(name).dataset.key = wanted;
+  $(name).setAttribute("aria-busy", "true");
+  $(`${name}-said`).textContent = name === "handling" ? "Following the turns …" : "Following the limit cycles …";
+  asides[name].push(body(s.values));
+}
+
+function emptied(name, sentence) {
+  $(name).removeAttribute("aria-busy");
+  $(`${name}-said`).textContent = sentence;
+  list($(`${name}-facts`), []);
+  list($(`${name}-key`), []);
+  for (const plot of BEYOND[name]) plots[plot].empty("");
+}
+
+function showHandling(found) {
+  emptied("handling", `${found.told[0]}.`);
+  list($("handling-facts"), found.told.slice(1));
+  for (const [name, content] of Object.entries(handlingPlots(found))) plots[name].set(content);
+  key($("handling-key"), HANDLING_KEY);
+}
+
+function showCycles(found) {
+  emptied("cycles", found.told[0]);
+  list($("cycles-facts"), found.told.slice(1));
+  if (!found.branches.length) return;
+  plots.amplitude.set(cyclesPlot(found, s.parameters[found.parameter], s.values, s.units));
+  key($("cycles-key"), CYCLES_KEY);
 }
 
 function askMotion() {
@@ -99,6 +144,7 @@ function askMotion() {
 // --- drawing
 
 function draw() {
+  if (s.answer.analysis.critical?.some(c => c.kind === "flutter")) $("cycles-card").hidden = false;
   const answer = s.answer, about = s.parameters[s.along], pinned = s.pin?.answer;
   $("verdict").className = `verdict ${answer.style}`;
   $("sign").textContent = answer.sign;
@@ -164,9 +210,11 @@ async function loadEquations() {
 
 // --- choosing a vehicle, the link
 
+const CARDS = [...Object.keys(BEYOND), "equations"];
 const link = () => write({ v: s.subject.vehicle, toml: s.subject.toml, values: s.values, pin: s.pin?.values,
   along: s.along, from: s.ranges[s.along][0], to: s.ranges[s.along][1], x: s.map[0], y: s.map[1],
-  mode: s.shown === "mode" ? s.mode : null, disturb: s.shown === "mode" ? null : s.disturb, units: s.units });
+  mode: s.shown === "mode" ? s.mode : null, disturb: s.shown === "mode" ? null : s.disturb, units: s.units,
+  open: CARDS.filter(name => $(name).open).join(",") || null });
 
 // Show a vehicle; wanted holds what a link asks for. Throws Problem, with the page as it was.
 async function open(subject, wanted = { values: {}, pin: null }) {
@@ -195,6 +243,7 @@ async function open(subject, wanted = { values: {}, pin: null }) {
     for (const plot of Object.values(plots)) plot.zoom = null;
     $("main").hidden = false;
     build();
+    if (wanted.open) for (const name of CARDS) $(name).open = wanted.open.includes(name);
     answered(answer);
   } finally {
     clearInterval(waiting);
@@ -214,6 +263,9 @@ function build() {
   delete $("derivation").dataset.key;
   $("sure").textContent = "";
   $("remedies").textContent = "Computing …";
+  $("handling-card").hidden = !about.turns;
+  $("cycles-card").hidden = true; // until an oscillation is seen to begin at some speed
+  for (const name of Object.keys(BEYOND)) delete $(name).dataset.key;
   plots.map.empty("Computing …");
   film.refuse("Computing …");
   $("pin").setAttribute("aria-pressed", String(Boolean(s.pin)));
@@ -295,7 +347,11 @@ $("motion").addEventListener("change", () => {
   else [s.shown, s.disturb] = ["disturb", rest.join(" ")];
   settled();
 });
-$("equations").addEventListener("toggle", () => $("equations").open && loadEquations());
+for (const name of CARDS) $(name).addEventListener("toggle", () => {
+  if (name !== "equations") askBeyond(name);
+  else if ($(name).open) loadEquations();
+  history.replaceState(null, "", link());
+});
 fileDialog(async () => s.subject ? (await request("api/download", { ...body(s.values), kind: "toml" })).text() : "",
   text => open({ toml: text }));
 $("downloads").addEventListener("keydown", event => {

@@ -11,7 +11,7 @@ export function steady(box, before) {
   return before ? [Math.min(box[0], before[0]), Math.max(box[1], before[1]), Math.max(box[2], before[2])] : box;
 }
 
-function axisLabel(about, name, system) {
+export function axisLabel(about, name, system) {
   const { text } = shownUnit(about.unit, system);
   return `${about.meaning.length < 36 ? about.meaning + " " : ""}${name}${text ? ` [${text}]` : ""}`;
 }

@@ -2,7 +2,8 @@
 import { Problem } from "./ask.js";
 import { SYSTEMS } from "./units.js";
 
-const TEXTS = ["v", "toml", "along", "x", "y", "mode", "disturb", "units"];
+const TEXTS = ["v", "toml", "along", "x", "y", "mode", "disturb", "units", "open"];
+const CARDS = ["handling", "cycles", "equations"];
 const NUMBERS = ["from", "to"];
 
 export function write(state) {
@@ -28,6 +29,9 @@ export function readLink(fragment) {
     throw new Problem(`The link cannot be read: there are no units '${state.units.slice(0, 40)}'.`);
   if (state.mode !== undefined && !/^\d{1,3}$/.test(state.mode))
     throw new Problem(`The link cannot be read: mode must be a whole number, got '${state.mode.slice(0, 40)}'.`);
+  state.open = (state.open || "").split(",").filter(Boolean);
+  for (const name of state.open) if (!CARDS.includes(name))
+    throw new Problem(`The link cannot be read: there is nothing to open called '${name.slice(0, 40)}'.`);
   return state;
 }
 

@@ -3,7 +3,7 @@ export const SYSTEMS = { si: "SI", kmh: "km/h, degrees", mph: "mph, degrees" };
 const SUPERSCRIPT = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴", 5: "⁵", 6: "⁶", 7: "⁷", 8: "⁸", 9: "⁹" };
 const DEGREES = 180 / Math.PI;
 
-const raised = text => text.replace(/\^(-?\d+)/g, (_, power) => [...power].map(c => SUPERSCRIPT[c]).join(""));
+export const raised = text => text.replace(/\^(-?\d+)/g, (_, power) => [...power].map(c => SUPERSCRIPT[c]).join(""));
 
 // What a unit is shown as: shown value = SI value * factor.
 export function shownUnit(unit, system) {
