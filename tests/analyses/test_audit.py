@@ -78,7 +78,7 @@ def test_analysis_carries_the_audit():
 
 @pytest.mark.parametrize(
     ("arguments", "words"),
-    [({"size": 0}, "size must be above 0, got 0"), ({"within": float("nan")}, "within must be above 0, got nan")],
+    [({"size": 0}, "size must be above 0, got 0"), ({"within": float("nan")}, "within must be a number, got nan")],
 )
 def test_mistakes_are_told(arguments, words):
     with pytest.raises(UcritError, match=words):

@@ -175,8 +175,8 @@ def test_other_jobs_and_other_folders_are_left_alone(tmp_path):
     [
         ({"kind": "mop"}, "there is no kind 'mop' of results; did you mean 'map'?"),
         ({"chunk": 0}, "chunk must be a whole number of points above 0, got 0"),
-        ({"c": []}, "needs several values here, got an empty range"),
-        ({"c": [1, float("nan")]}, "must be finite, got nan"),
+        ({"c": []}, "c must be a list of numbers or a text, got []"),
+        ({"c": [1, float("nan")]}, "c must be a list of numbers or a text, got [1, nan]"),
         ({"x": [1, 2]}, "there is no parameter 'x'"),
         ({"c": np.arange(2_000_000), "chunk": 1}, "are allowed: take fewer points, or larger chunks"),
         ({"client": "tcp://127.0.0.1:9"}, "no scheduler answers at 'tcp://127.0.0.1:9'"),

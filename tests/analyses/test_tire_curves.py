@@ -83,7 +83,7 @@ def test_the_coefficient_from_points(unit):
     [
         (lambda: tire_curves(3), "tire_curves needs a tire"),
         (lambda: tire_curves(BRUSH, [0]), "load must be above 0 N, got 0 N"),
-        (lambda: tire_curves(BRUSH, ["x"]), "loads must be numbers in N"),
+        (lambda: tire_curves(BRUSH, ["x"]), "loads must be a list of numbers"),
         (lambda: tire_curves(BRUSH, [[1.0]]), "loads must be a list of finite numbers"),
         (lambda: tire_curves(BRUSH, alpha=[10]), "slip angles must be within a quarter turn"),
         (lambda: tire_curves(BRUSH, kappa=[-2]), "longitudinal slip must be at least -1, where the wheel is locked"),

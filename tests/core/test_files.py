@@ -89,7 +89,7 @@ def test_a_template_only_lacks_numbers(name):
     [
         ("nowhere.toml", "there is no file 'nowhere.toml'"),
         ("caravann", "there is no vehicle 'caravann'; did you mean 'caravan'?"),
-        ("/", "is a folder, not a vehicle file"),
+        ("/", "is a folder, not a file"),
     ],
 )
 def test_files_that_are_not_there(path, message):
