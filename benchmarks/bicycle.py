@@ -46,7 +46,7 @@ def speeds() -> list[Row]:
 
 
 def _matrices(vehicle: Any, v: Any) -> Any:
-    from ucrit.core.compiled import state_space
+    from ucrit.core.numeric.compiled import state_space
 
     return state_space(vehicle.with_(U=v)).A
 

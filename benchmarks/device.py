@@ -14,8 +14,8 @@ from benchmarks.timing import Row, interleaved
 from ucrit import UcritError, stability_map
 from ucrit.analyses.stability.device import PIECE, Layout, chunks
 from ucrit.analyses.stability.grids import Grid
-from ucrit.core.compiled import compiled
-from ucrit.core.kernels import THREADS, needed, source
+from ucrit.core.numeric.compiled import compiled
+from ucrit.core.numeric.kernels import THREADS, needed, source
 
 SIDES = (20_000, 80_000)
 """Rows and columns of the map: small enough for a device's memory, large enough that it works for some milliseconds."""

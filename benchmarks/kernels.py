@@ -10,7 +10,7 @@ from ucrit.analyses.linear.modes import eigenvalues
 from ucrit.analyses.regions.stability_map import stability_map
 from ucrit.analyses.regions.sweep import sweep
 from ucrit.analyses.stability.locus import locus
-from ucrit.core.compiled import coefficients, state_space
+from ucrit.core.numeric.compiled import coefficients, state_space
 
 SPEEDS = 100_000
 SAMPLE = 500

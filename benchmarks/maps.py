@@ -10,7 +10,7 @@ import numpy as np
 
 from benchmarks.timing import Row, compared, interleaved
 from ucrit import boundary, find_model, stability_map, stable_matrices
-from ucrit.core.compiled import state_space
+from ucrit.core.numeric.compiled import state_space
 
 SIDE = 10_000
 ORDER = 8

@@ -32,9 +32,9 @@ from ucrit.checks.derivations import accelerations
 from ucrit.checks.states import differs, random_states
 from ucrit.checks.subject import Subject
 from ucrit.checks.suite import run
-from ucrit.core.model import Model
-from ucrit.core.motion import motion
-from ucrit.core.trace import trace
+from ucrit.core.contract.model import Model
+from ucrit.core.derivation.trace import trace
+from ucrit.core.numeric.motion import motion
 
 REQUIRED = 0.99
 SECONDS = 30

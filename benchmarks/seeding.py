@@ -6,8 +6,8 @@ import ast
 from collections.abc import Iterator
 from typing import Any
 
-from ucrit.core.declare import Quantity
-from ucrit.core.model import Model
+from ucrit.core.contract.declare import Quantity
+from ucrit.core.contract.model import Model
 
 SWAPPED = {ast.Add: ast.Sub, ast.Sub: ast.Add, ast.Mult: ast.Div, ast.Div: ast.Mult}
 OTHER = {

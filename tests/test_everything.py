@@ -9,9 +9,9 @@ import pytest
 import ucrit
 from ucrit import UcritError, load
 from ucrit.catalogue import vehicle_names
-from ucrit.core.compiled import coefficients, state_space
-from ucrit.core.motion import motion
-from ucrit.core.possible import allowed
+from ucrit.core.contract.possible import allowed
+from ucrit.core.numeric.compiled import coefficients, state_space
+from ucrit.core.numeric.motion import motion
 
 ONE_EACH = list({type(load(name)): name for name in vehicle_names()}.values())
 """One vehicle of every model."""

@@ -5,7 +5,7 @@ from pictures import WIDTH, curve, figure_with_axes, picture
 from scipy.integrate import solve_ivp
 
 from ucrit import critical, load, locus, stability_map, steady_turn, step_response, sweep
-from ucrit.core.motion import motion
+from ucrit.core.numeric.motion import motion
 from ucrit.plots import plot_damping, plot_map, style
 from ucrit.plots.labels import math_symbol
 

@@ -4,7 +4,7 @@ import numpy as np
 from pictures import curve, figure_with_axes, picture
 
 from ucrit import load, moment_line, simulate, static_margin, step_response, trim
-from ucrit.core.compiled import state_space
+from ucrit.core.numeric.compiled import state_space
 from ucrit.parts import wings
 from ucrit.plots import style
 

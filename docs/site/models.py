@@ -12,7 +12,7 @@ import ucrit
 from ucrit.catalogue import PUBLISHED, VEHICLES, find_model, model_names, vehicle_names
 from ucrit.checks.eigenvalues import NEAR
 from ucrit.checks.published import read_published
-from ucrit.core.compiled import state_space
+from ucrit.core.numeric.compiled import state_space
 from ucrit.plots.labels import unit_text
 from ucrit.report import formulas
 from ucrit.report.derivation import steps

@@ -143,7 +143,7 @@ def test_participation_does_not_depend_on_units():
     first = modes(load("caravan")).participation
     scale = np.diag([1e3, 1e3, 1.0, 1.0])
     from ucrit.analyses.linear.modes import _participation
-    from ucrit.core.compiled import state_space
+    from ucrit.core.numeric.compiled import state_space
 
     A = state_space(load("caravan")).A
     values, vectors = np.linalg.eig(scale @ A @ np.linalg.inv(scale))

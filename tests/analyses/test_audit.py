@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from ucrit import UcritError, analyze, audit, load, modes
 from ucrit.analyses.motion import audit as module
 from ucrit.catalogue import vehicle_names
-from ucrit.core.motion import motion
+from ucrit.core.numeric.motion import motion
 from ucrit.numerics.prony import fit_exponents
 
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from ucrit import Model, UcritError, certify, coordinate, critical, find_model, load, param
 from ucrit.analyses.regions.exact_ranges import exact_range
 from ucrit.catalogue import vehicle_names
-from ucrit.core.compiled import compiled, direction
+from ucrit.core.numeric.compiled import compiled, direction
 from ucrit.numerics.routh import routh
 
 

@@ -7,7 +7,7 @@ from ucrit import UcritError, critical, load, modes, verdict
 from ucrit.analyses.stability.compare import compare
 from ucrit.analyses.stability.static_term import static_term
 from ucrit.catalogue import vehicle_names
-from ucrit.core.compiled import compiled
+from ucrit.core.numeric.compiled import compiled
 
 
 def test_facts_are_those_of_each_vehicle():

@@ -18,8 +18,8 @@ from ucrit.analyses.regions.sweep import sweep
 from ucrit.analyses.results.convert import to_control, to_scipy
 from ucrit.analyses.stability.locus import locus
 from ucrit.analyses.stability.sensitivity import sensitivity
-from ucrit.core.compiled import state_space
 from ucrit.core.errors import MissingExtraError
+from ucrit.core.numeric.compiled import state_space
 
 RESULTS = {
     "sweep": lambda v: sweep(v, U=[10, 20, 40], c=[0, 4000]),

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from ucrit import UcritError, analyze, criteria, critical, find_model, load, verdict
 from ucrit.analyses.stability.few import READABLE, ranked
 from ucrit.catalogue import model_names, vehicle_names
-from ucrit.core.compiled import state_space
-from ucrit.core.possible import holds
+from ucrit.core.contract.possible import holds
+from ucrit.core.numeric.compiled import state_space
 
 
 def same(expression, literature):
@@ -73,7 +73,7 @@ def test_stable_forward_unstable_backward(model):
 
 
 def test_kinematic_wheelset_has_the_literatures_wavelength():
-    from ucrit.core.derive import symbolic
+    from ucrit.core.derivation.derive import symbolic
 
     system = symbolic(find_model("wheelset-kinematic"))
     a0, a1, a2 = system.polynomial.expressions

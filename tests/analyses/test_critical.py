@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from ucrit import Model, UcritError, critical, find_model, load, modes, param, speed, state
 from ucrit.analyses.stability.scan import scan
 from ucrit.catalogue import vehicle_names
-from ucrit.core.compiled import coefficients, compiled, direction
+from ucrit.core.numeric.compiled import coefficients, compiled, direction
 
 
 def test_damped_hitch_has_the_literatures_critical_speed():

@@ -16,9 +16,9 @@ from ucrit import Model, UcritError, coordinate, find_model, load, param, stabil
 from ucrit.analyses.linear.modes import eigenvalues, growth
 from ucrit.analyses.stability import judge
 from ucrit.analyses.stability.judge import settle
-from ucrit.core import kernels, rows
-from ucrit.core.compiled import compiled
 from ucrit.core.errors import MissingExtraError
+from ucrit.core.numeric import kernels, rows
+from ucrit.core.numeric.compiled import compiled
 
 pytest.importorskip("numba")
 

@@ -8,8 +8,8 @@ import sympy as sp
 
 from ucrit import UcritError, find_model, load, modes
 from ucrit.analyses.stability.limits import limit
-from ucrit.core.derive import symbolic
-from ucrit.core.limits import limit_polynomial
+from ucrit.core.derivation.derive import symbolic
+from ucrit.core.derivation.limits import limit_polynomial
 
 LOWER = [
     ("trailer-undamped-hitch", {"C": inf}, "trailer-rigid-tire-undamped"),

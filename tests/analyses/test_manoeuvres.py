@@ -8,7 +8,7 @@ import pytest
 from ucrit import Gust, Measured, Pulse, Ramp, Sine, SineWithDwell, Step, UcritError, load, simulate
 from ucrit.analyses.motion.manoeuvre_text import SHAPES, parse_shape
 from ucrit.analyses.motion.manoeuvres import Shape
-from ucrit.core.declare import input
+from ucrit.core.contract.declare import input
 
 QUANTITY = input("rad", "steer angle")
 DEGREE = math.pi / 180

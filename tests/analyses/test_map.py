@@ -11,8 +11,8 @@ from ucrit.analyses.linear.modes import growth as growth_of
 from ucrit.analyses.regions.stability_map import stability_map
 from ucrit.analyses.stability import judge
 from ucrit.catalogue import vehicle_names
-from ucrit.core.compiled import compiled
-from ucrit.core.possible import allowed
+from ucrit.core.contract.possible import allowed
+from ucrit.core.numeric.compiled import compiled
 
 UNDAMPED = {"m": 1000, "a": 1.5, "I_c": 1800, "U": 25, "C": 5e4, "b": 1, "k": 1e4}
 

@@ -94,7 +94,7 @@ def test_no_margins_without_stability_or_limits():
 def test_the_loop_of_an_observer_is_that_of_the_compensator():
     """Cut next to the vehicle, the observer knows the command, not what reaches the wheels."""
     from ucrit.control import kalman
-    from ucrit.core.compiled import state_space
+    from ucrit.core.numeric.compiled import state_space
 
     bare = load("motorcycle-lean")
     seen = kalman(bare, "theta", {"p": 1e4}, 1e-4)

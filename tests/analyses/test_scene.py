@@ -7,7 +7,7 @@ from ucrit import Model, ModelError, UcritError, load, modes, simulate, state
 from ucrit.analyses.motion.scene import mode_scene, scene
 from ucrit.catalogue import vehicle_names
 from ucrit.core import Body, Drawing
-from ucrit.core.drawing import box
+from ucrit.core.contract.drawing import box
 
 DRAWN = [name for name in vehicle_names() if hasattr(type(load(name)), "drawing")]
 

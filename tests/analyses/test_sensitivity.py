@@ -11,8 +11,8 @@ from ucrit import Model, critical, load, param, speed, state
 from ucrit.analyses.linear.modes import rigid_positions
 from ucrit.analyses.stability.sensitivity import sensitivity
 from ucrit.catalogue import vehicle_names
-from ucrit.core.compiled import compiled, direction, state_slopes, state_space
-from ucrit.core.possible import allowed
+from ucrit.core.contract.possible import allowed
+from ucrit.core.numeric.compiled import compiled, direction, state_slopes, state_space
 
 STEP = Fraction(1, 10**30)
 

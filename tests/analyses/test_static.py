@@ -5,7 +5,7 @@ import pytest
 
 from ucrit import UcritError, load
 from ucrit.analyses.stability.static import static_stability
-from ucrit.core.compiled import state_space
+from ucrit.core.numeric.compiled import state_space
 
 
 @pytest.mark.parametrize("seed", range(40))

@@ -5,7 +5,7 @@ import pytest
 
 from ucrit import UcritError, critical, load
 from ucrit.analyses.linear.steady import GRAVITY, axle_loads, steady_turn
-from ucrit.core.compiled import state_space
+from ucrit.core.numeric.compiled import state_space
 
 SPEEDS = np.linspace(1, 34, 34)
 SEEDS = range(40)

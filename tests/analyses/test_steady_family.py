@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from ucrit import UcritError, critical, load, steady_family, steady_turn
-from ucrit.core.motion import motion
+from ucrit.core.numeric.motion import motion
 
 INSIDE = {"alpha_f": (-0.3, 0.3), "alpha_r": (-0.3, 0.3)}
 

@@ -10,7 +10,7 @@ from ucrit.analyses.regions import sweep as module
 from ucrit.analyses.regions.ranges import COUNT, MAX_COUNT, parse_range
 from ucrit.analyses.regions.sweep import sweep
 from ucrit.catalogue import vehicle_names
-from ucrit.core.possible import allowed
+from ucrit.core.contract.possible import allowed
 
 
 def test_every_entry_is_that_of_the_vehicle_with_these_values():

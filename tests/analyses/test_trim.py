@@ -8,7 +8,7 @@ import pytest
 from ucrit import UcritError, load, trim
 from ucrit.catalogue import model_names
 from ucrit.checks.sample import vehicles_of
-from ucrit.core.motion import motion
+from ucrit.core.numeric.motion import motion
 
 
 @pytest.mark.parametrize("name", model_names())

@@ -13,9 +13,9 @@ from ucrit import UcritError, critical, find_model, load, plot, uncertainty
 from ucrit.analyses.regions.critical_many import crossings
 from ucrit.analyses.regions.sampling import drawn, unit_points
 from ucrit.catalogue import VEHICLES, vehicle_names
-from ucrit.core.compiled import compiled, direction
-from ucrit.core.possible import allowed
-from ucrit.core.tolerances import Tolerance, Tolerances
+from ucrit.core.contract.possible import allowed
+from ucrit.core.contract.tolerances import Tolerance, Tolerances
+from ucrit.core.numeric.compiled import compiled, direction
 
 WITH_SPEED = list(
     {type(v): n for n, v in ((n, load(n)) for n in vehicle_names()) if type(v).declaration.speed}.values()

@@ -14,9 +14,9 @@ from ucrit.bondgraph.equations import state_equations
 from ucrit.checks.bonds import bond_graph_in_motion
 from ucrit.checks.report import FailedCheckError
 from ucrit.checks.subject import Subject
-from ucrit.core.characteristic import characteristic_polynomial
-from ucrit.core.derive import symbolic
-from ucrit.core.functions import tanh
+from ucrit.core.derivation.characteristic import characteristic_polynomial
+from ucrit.core.derivation.derive import symbolic
+from ucrit.core.formulas.functions import tanh
 from ucrit.models.car import Car
 from ucrit.models.caster_flexible_sidewall import CasterFlexibleSidewall
 from ucrit.models.caster_relaxation import CasterRelaxation
@@ -53,7 +53,7 @@ def test_momenta_and_velocities_have_one_polynomial_in_symbols(name):
 
 def test_equations_of_motion_are_newtons_symbol_by_symbol():
     """Euler's junction structures give equations (2.17) and (2.19) term by term, with the full tensor."""
-    from ucrit.core.trace import trace
+    from ucrit.core.derivation.trace import trace
 
     graph, newton = (trace(RigidBody, None, how).residuals for how in ("equations_bond_graph", ""))
     assert all(sp.expand(a - b) == 0 for a, b in zip(graph, newton, strict=True))

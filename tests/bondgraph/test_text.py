@@ -15,7 +15,7 @@ from ucrit.bondgraph.model import graph_of, model_from_text
 from ucrit.bondgraph.text import read_graph, read_sheet
 from ucrit.bondgraph.writing import write_graph, write_sheet
 from ucrit.catalogue import find_model, find_part, load, part_names, tire_names
-from ucrit.core.functions import length, where
+from ucrit.core.formulas.functions import length, where
 from ucrit.parts.tires import Tire
 
 SHEET = """title Mass on a spring with friction

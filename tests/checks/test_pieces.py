@@ -15,7 +15,7 @@ from ucrit.checks.sample import parameter_sets
 from ucrit.checks.states import constraints, differs, random_states
 from ucrit.checks.subject import Subject
 from ucrit.core import Model, ModelError, param, state
-from ucrit.core.derive import symbolic
+from ucrit.core.derivation.derive import symbolic
 from ucrit.models.trailer import Trailer
 from ucrit.models.trailer_kinematic import TrailerKinematic
 from ucrit.models.trailer_rigid_tire import TrailerRigidTire

@@ -4,8 +4,8 @@ import pytest
 
 from ucrit.checks import check_model
 from ucrit.core import Model, coordinate, cos, input, output, param, sin, speed, state
-from ucrit.core import compiled as core_compiled
-from ucrit.core import motion as core_motion
+from ucrit.core.numeric import compiled as core_compiled
+from ucrit.core.numeric import motion as core_motion
 from ucrit.models.car import Car
 from ucrit.models.trailer import Trailer
 from ucrit.models.trailer_kinematic import TrailerKinematic
@@ -210,7 +210,7 @@ def test_hidden_number_with_a_unit(monkeypatch):
             return self.m * ddx.y + self.d * abs(dx.y) * dx.y + (self.k + 9.81 * self.d) * x.y - u.F
 
     assert failing(Hidden) == ["equations"]
-    monkeypatch.setattr("ucrit.core.trace.check_dimensions", lambda traced: None)
+    monkeypatch.setattr("ucrit.core.derivation.trace.check_dimensions", lambda traced: None)
     assert failing(Hidden) == ["change of units"]
 
 
@@ -221,7 +221,7 @@ def test_hidden_number_in_the_nonlinear_motion(monkeypatch):
         def equations(self, x, dx, ddx, u):
             return self.m * ddx.y + self.d * dx.y**3 + self.k * x.y - u.F
 
-    monkeypatch.setattr("ucrit.core.trace.check_dimensions", lambda traced: None)
+    monkeypatch.setattr("ucrit.core.derivation.trace.check_dimensions", lambda traced: None)
     assert failing(Hidden) == ["change of units"]
 
 

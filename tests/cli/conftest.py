@@ -11,7 +11,7 @@ from click.testing import CliRunner, Result
 
 from ucrit.catalogue import find_model
 from ucrit.cli.app import cli
-from ucrit.core.files import write_vehicle
+from ucrit.core.contract.files import write_vehicle
 
 from .values import sample
 

@@ -11,7 +11,7 @@ from click.testing import Result
 
 from ucrit import UcritError, load
 from ucrit.catalogue import read_vehicle
-from ucrit.core.files import write_vehicle
+from ucrit.core.contract.files import write_vehicle
 from ucrit.web.serve import _fragment
 
 Run = Callable[..., Result]

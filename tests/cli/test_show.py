@@ -13,10 +13,10 @@ from sympy.core.function import AppliedUndef
 from ucrit import show
 from ucrit.analyses.linear.pieces import named_pieces
 from ucrit.catalogue import find_model, load
-from ucrit.core.compiled import coefficients
-from ucrit.core.derive import symbolic
+from ucrit.core.derivation.derive import symbolic
+from ucrit.core.derivation.trace import Traced, written
 from ucrit.core.errors import UcritError
-from ucrit.core.trace import Traced, written
+from ucrit.core.numeric.compiled import coefficients
 
 MODELS = ["car", "trailer", "caster", "trailer-kinematic", "wheelset-kinematic", "cart-inertial"]
 

@@ -6,8 +6,8 @@ import math
 from typing import Any
 
 from ucrit.catalogue import find_model, model_names
-from ucrit.core.declare import Parameter
-from ucrit.core.model import Model
+from ucrit.core.contract.declare import Parameter
+from ucrit.core.contract.model import Model
 from ucrit.core.units import dimension
 
 EVERY = [(name, key) for name in model_names() for key in find_model(name).declaration.parameters]

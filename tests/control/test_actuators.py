@@ -8,7 +8,7 @@ import control
 import ucrit
 from ucrit import UcritError, load, margins, simulate, simulate_delayed, to_control
 from ucrit.control import broken, close, delay, lag, rate_limit, saturation, state_feedback
-from ucrit.core.compiled import state_space
+from ucrit.core.numeric.compiled import state_space
 
 CAR = load("oversteering-car")
 MOTORCYCLE = load("motorcycle-steered-to-lean")

@@ -12,9 +12,9 @@ import ucrit
 from ucrit import Model, ModelError, UcritError, input, load, output, param, speed, state
 from ucrit.catalogue import load as load_vehicle
 from ucrit.control import Controller, close, closed
-from ucrit.core.compiled import state_space
-from ucrit.core.derive import symbolic
-from ucrit.core.files import write_vehicle
+from ucrit.core.contract.files import write_vehicle
+from ucrit.core.derivation.derive import symbolic
+from ucrit.core.numeric.compiled import state_space
 from ucrit.models.car import Car
 from ucrit.models.lean import Lean
 

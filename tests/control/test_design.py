@@ -10,8 +10,8 @@ import ucrit
 from ucrit import Model, UcritError, coordinate, input, load, param, state
 from ucrit.catalogue import load as load_vehicle
 from ucrit.control import close, kalman, lqr, observer, place, reaching_time, state_feedback
-from ucrit.core.compiled import state_space
-from ucrit.core.files import write_vehicle
+from ucrit.core.contract.files import write_vehicle
+from ucrit.core.numeric.compiled import state_space
 
 CAR = load("oversteering-car")
 MOTORCYCLE = load("motorcycle-lean")

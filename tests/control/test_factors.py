@@ -6,8 +6,8 @@ import pytest
 import ucrit
 from ucrit import criteria, critical, load
 from ucrit.control import close, delay, lag, observing, state_feedback
-from ucrit.core.compiled import compiled, state_space
-from ucrit.core.derive import symbolic
+from ucrit.core.derivation.derive import symbolic
+from ucrit.core.numeric.compiled import compiled, state_space
 
 CAR = load("oversteering-car")
 

@@ -8,7 +8,7 @@ import ucrit
 from ucrit import criteria, critical, find_model, load, simulate, step_response, transfer
 from ucrit.catalogue import controller_names, find_controller
 from ucrit.control import closed, state_feedback
-from ucrit.core.derive import symbolic
+from ucrit.core.derivation.derive import symbolic
 
 LEAN, CAR = find_model("lean"), find_model("car")
 

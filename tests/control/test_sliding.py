@@ -18,7 +18,7 @@ from ucrit.control import (
     sliding,
     sliding_eigenvalues,
 )
-from ucrit.core.files import write_vehicle
+from ucrit.core.contract.files import write_vehicle
 
 CAR = load("oversteering-car")
 NEUTRAL = load("neutral-car")

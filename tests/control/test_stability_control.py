@@ -8,7 +8,7 @@ from ucrit.control import close
 from ucrit.control.laws.stability_control import StabilityControl
 from ucrit.control.laws.wheel_slip_control import WheelSlipControl
 from ucrit.control.laws.yaw_rate_within_friction import YawRateWithinFriction
-from ucrit.core.motion import motion
+from ucrit.core.numeric.motion import motion
 
 WHEELS = ("fl", "fr", "rl", "rr")
 BARE, CAR = load("car-on-worn-rear-tires"), load("car-with-stability-control")

@@ -5,8 +5,8 @@ import sys
 import pytest
 
 from ucrit.core import Model, param, state
-from ucrit.core import cache as cache_module
-from ucrit.core.cache import cached, fingerprint
+from ucrit.core.numeric import cache as cache_module
+from ucrit.core.numeric.cache import cached, fingerprint
 
 
 def make(factor, helper):
@@ -71,4 +71,4 @@ def test_numeric_work_does_not_import_sympy_the_second_time(tmp_path):
 
 def test_fingerprint_follows_all_code_that_derives():
     names = {name for name, _, _ in cache_module._package_stamps()}
-    assert {"core/derive.py", "analyses/stability/conditions.py", "analyses/linear/formulas.py"} <= names
+    assert {"core/derivation/derive.py", "analyses/stability/conditions.py", "analyses/linear/formulas.py"} <= names

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from ucrit.core.codegen import build, build_for_points
+from ucrit.core.formulas.codegen import build, build_for_points
 
 SOURCE = """def f(g0, g1):
     x, y, = g0

@@ -1,8 +1,8 @@
 import pytest
 
 from ucrit.catalogue import controlled, find_model, find_part, graph_model, load, model_names, vehicle_names
+from ucrit.core.contract.files import Find, parse_vehicle, vehicle_template, write_vehicle
 from ucrit.core.errors import UcritError
-from ucrit.core.files import Find, parse_vehicle, vehicle_template, write_vehicle
 
 GOOD = """model = "car"
 name = "x"

@@ -10,11 +10,11 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from ucrit.catalogue import find_model, load, model_names
-from ucrit.core.characteristic import characteristic_polynomial
-from ucrit.core.compiled import coefficients, compiled, state_space
+from ucrit.core.derivation.characteristic import characteristic_polynomial
+from ucrit.core.derivation.explicit import explicit
+from ucrit.core.derivation.linear import LinearSystem
 from ucrit.core.errors import ModelError, UcritError
-from ucrit.core.explicit import explicit
-from ucrit.core.linear import LinearSystem
+from ucrit.core.numeric.compiled import coefficients, compiled, state_space
 
 
 def system_of(matrices):

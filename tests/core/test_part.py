@@ -8,8 +8,8 @@ import pytest
 import ucrit
 from ucrit import Model, UcritError, input, output, param, speed, state
 from ucrit.catalogue import find_part, part_names
-from ucrit.core.motion import motion
-from ucrit.core.part import Part, slot
+from ucrit.core.contract.part import Part, slot
+from ucrit.core.numeric.motion import motion
 from ucrit.parts.tires import Tire, slip_angle
 from ucrit.parts.tires.brush import Brush
 from ucrit.parts.tires.linear import Linear

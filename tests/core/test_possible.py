@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from ucrit import UcritError, analyze, critical, find_model, load, locus, sweep
 from ucrit.catalogue import model_names
 from ucrit.checks.subject import Subject
-from ucrit.core.possible import allowed, holds
+from ucrit.core.contract.possible import allowed, holds
 from ucrit.parts.rigid_body import inertia_tensor, is_possible
 
 RULED = [name for name in model_names() if hasattr(find_model(name), "possible")]

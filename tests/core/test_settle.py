@@ -6,12 +6,12 @@ import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ucrit.core.codegen import build, generate, renaming, write
-from ucrit.core.functions import length, maximum, minimum, where
-from ucrit.core.plane import Length, Share, computable
-from ucrit.core.rings import polynomial_field
-from ucrit.core.settle import settled
-from ucrit.core.slopes import slopes_at, staged_slopes
+from ucrit.core.derivation.rings import polynomial_field
+from ucrit.core.formulas.codegen import build, generate, renaming, write
+from ucrit.core.formulas.functions import length, maximum, minimum, where
+from ucrit.core.formulas.plane import Length, Share, computable
+from ucrit.core.formulas.settle import settled
+from ucrit.core.formulas.slopes import slopes_at, staged_slopes
 
 X, Y, Z = sp.symbols("x y z", real=True)
 P = sp.Symbol("p", positive=True)

@@ -5,9 +5,9 @@ import pickle
 import pytest
 
 from ucrit.catalogue import controlled, find_model, find_part, graph_model, load
+from ucrit.core.contract.files import Find, parse_vehicle, write_vehicle
+from ucrit.core.contract.tolerances import Tolerance
 from ucrit.core.errors import UcritError
-from ucrit.core.files import Find, parse_vehicle, write_vehicle
-from ucrit.core.tolerances import Tolerance
 
 FIND = Find(find_model, find_part, controlled, graph_model)
 GOOD = """model = "car"

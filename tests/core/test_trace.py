@@ -2,8 +2,8 @@ import pytest
 import sympy as sp
 
 from ucrit.core import Model, ModelError, algebraic, coordinate, cos, input, output, param, sin, speed, state
-from ucrit.core.linear import linear_system
-from ucrit.core.trace import trace
+from ucrit.core.derivation.linear import linear_system
+from ucrit.core.derivation.trace import trace
 
 
 class Pendulum(Model):
@@ -130,9 +130,9 @@ def test_an_algebraic_unknown_is_eliminated():
 def test_a_group_is_one_thing_to_polynomials_and_its_content_to_everything_else():
     import sympy as sp
 
-    from ucrit.core import typeset
-    from ucrit.core.functions import grouped
-    from ucrit.core.rings import function_symbols
+    from ucrit.core.derivation.rings import function_symbols
+    from ucrit.core.formulas import typeset
+    from ucrit.core.formulas.functions import grouped
 
     a, b = sp.symbols("a b", positive=True)
     group = grouped(a / b + 1)

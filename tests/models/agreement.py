@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import brentq
 
 from ucrit import critical, modes
-from ucrit.core.possible import holds
+from ucrit.core.contract.possible import holds
 
 SETS = 40
 

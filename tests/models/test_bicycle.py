@@ -6,7 +6,7 @@ import pytest
 from ucrit import critical, load, modes
 from ucrit.analyses.linear.modes import eigenvalues
 from ucrit.analyses.stability.exact import exact_search
-from ucrit.core.derive import symbolic
+from ucrit.core.derivation.derive import symbolic
 
 M = [[80.81722, 2.31941332208709], [2.31941332208709, 0.29784188199686]]
 C1 = [[0, 33.8664139149249], [-0.850356414569784, 1.6854039739756]]

@@ -5,8 +5,8 @@ import pytest
 from agreement import varied
 
 from ucrit import find_model, handling_diagram, load, modes, param, rollover, simulate, steady_family, steady_turn
-from ucrit.core.compiled import state_space
-from ucrit.core.motion import motion
+from ucrit.core.numeric.compiled import state_space
+from ucrit.core.numeric.motion import motion
 from ucrit.parts.tires import Forces, Tire
 from ucrit.parts.tires.linear import Linear
 
@@ -168,8 +168,8 @@ def test_a_turn_can_be_held_by_the_brakes_of_one_side():
 
 
 def test_formulas_with_conditions_are_well_formed():
-    from ucrit.core.trace import trace
-    from ucrit.core.typeset import mathml
+    from ucrit.core.derivation.trace import trace
+    from ucrit.core.formulas.typeset import mathml
     from ucrit.report.formulas import formula
 
     reference = mathml(trace(type(load("car-with-stability-control"))).residuals[-1])

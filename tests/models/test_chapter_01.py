@@ -7,7 +7,7 @@ from scipy.integrate import solve_ivp
 
 from ucrit import criteria, find_model, load, modes
 from ucrit.checks import check_model
-from ucrit.core.motion import motion
+from ucrit.core.numeric.motion import motion
 
 CARTS = ("cart", "cart-inertial")
 

@@ -8,8 +8,8 @@ from agreement import SETS, varied
 from scipy.special import ellipj, ellipk
 
 from ucrit import analyze, criteria, find_model, load, modes, simulate, verdict
-from ucrit.core.derive import symbolic
-from ucrit.core.trace import trace
+from ucrit.core.derivation.derive import symbolic
+from ucrit.core.derivation.trace import trace
 from ucrit.models.car import Car
 from ucrit.models.rigid_body import RigidBody
 from ucrit.models.rigid_body_longitudinal import RigidBodyLongitudinal

@@ -10,8 +10,8 @@ from ucrit.analyses.linear.transfer import transfer
 from ucrit.analyses.stability.limits import limit
 from ucrit.analyses.stability.static import static_stability
 from ucrit.checks import check_model
-from ucrit.core.derive import symbolic
-from ucrit.core.linear import linear_system
+from ucrit.core.derivation.derive import symbolic
+from ucrit.core.derivation.linear import linear_system
 
 SEEDS = range(SETS)
 

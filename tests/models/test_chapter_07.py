@@ -9,9 +9,9 @@ from agreement import SETS, varied
 
 from ucrit import criteria, find_model, load, modes, transfer
 from ucrit.checks import check_model
-from ucrit.core.derive import symbolic
-from ucrit.core.motion import motion
-from ucrit.core.trace import trace
+from ucrit.core.derivation.derive import symbolic
+from ucrit.core.derivation.trace import trace
+from ucrit.core.numeric.motion import motion
 from ucrit.parts.rolling import rolling_motion
 
 SEEDS = range(SETS)

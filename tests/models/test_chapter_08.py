@@ -8,7 +8,7 @@ from agreement import SETS, agree, crossing, growth, varied
 
 from ucrit import criteria, critical, find_model, load, modes
 from ucrit.checks import check_model
-from ucrit.core.derive import symbolic
+from ucrit.core.derivation.derive import symbolic
 
 CASTERS = (
     "caster",
@@ -64,7 +64,7 @@ def test_vertical_pivot_eigenvalues(seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_rake_turns_the_wheel_like_a_hooke_joint_and_tilts_it(seed):
-    from ucrit.core.model import Names
+    from ucrit.core.contract.model import Names
 
     fork = varied(load("motorcycle-front-fork"), seed)
     x = Names("x", {"theta": 0.02 * (seed + 1)})

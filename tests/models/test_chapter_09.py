@@ -10,8 +10,8 @@ from agreement import SETS, growth, varied
 
 from ucrit import approximation, compare, critical, find_model, load, modes, moment_line, static_margin, trim
 from ucrit.checks import check_model
-from ucrit.core.compiled import state_space
-from ucrit.core.derive import symbolic
+from ucrit.core.derivation.derive import symbolic
+from ucrit.core.numeric.compiled import state_space
 from ucrit.parts import wings
 
 MODELS = (

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from ucrit import load, modes
-from ucrit.core.compiled import state_space
-from ucrit.core.motion import motion
+from ucrit.core.numeric.compiled import state_space
+from ucrit.core.numeric.motion import motion
 
 FOOT = 0.3048
 

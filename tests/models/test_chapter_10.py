@@ -10,8 +10,8 @@ from agreement import SETS, agree, crossing, varied
 
 from ucrit import criteria, critical, find_model, load, modes
 from ucrit.checks import check_model
-from ucrit.core.compiled import compiled
-from ucrit.core.motion import motion
+from ucrit.core.numeric.compiled import compiled
+from ucrit.core.numeric.motion import motion
 from ucrit.numerics.routh import routh
 from ucrit.parts.creep import contact_velocities, creepage
 

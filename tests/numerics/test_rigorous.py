@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 import ucrit
 from ucrit.analyses.regions.enclosing import Enclosing
 from ucrit.catalogue import vehicle_names
-from ucrit.core.codegen import build
-from ucrit.core.compiled import compiled, deciding, direction
+from ucrit.core.formulas.codegen import build
+from ucrit.core.numeric.compiled import compiled, deciding, direction
 from ucrit.numerics.rigorous import Boxes, Proved, ProvedFunctions, exact_pair
 
 ONE_EACH = list({type(ucrit.load(name)): name for name in vehicle_names()}.values())

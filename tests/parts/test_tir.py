@@ -7,7 +7,7 @@ import pytest
 import ucrit
 from ucrit import UcritError
 from ucrit.catalogue import TIRES, tire_names
-from ucrit.core.files import write_vehicle
+from ucrit.core.contract.files import write_vehicle
 from ucrit.parts.tires.tir import read_tir
 
 TEXT = (TIRES / "pacejka-205-60r15.tir").read_text()

@@ -14,7 +14,7 @@ from hypothesis import strategies as st
 import ucrit
 from ucrit import Model, UcritError, input, param, slot, speed, state
 from ucrit.catalogue import TIRES, find_part, part_names, tire_names
-from ucrit.core.motion import motion
+from ucrit.core.numeric.motion import motion
 from ucrit.parts.tires import Tire, axle_coefficient, magic_formula, slip_angle
 from ucrit.parts.tires.brush import Brush
 from ucrit.parts.tires.brush_moment import BrushMoment

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ..core.functions import cos, sin
+from ..core.formulas.functions import cos, sin
 from .elements import GY, I, f, one, p, q
 from .graph import Graph
 from .running_gear import velocity

@@ -1,4 +1,4 @@
-"""Formulas as the text form of bond graphs writes them, so that `ucrit.core.expressions` reads them back."""
+"""Formulas as the text form of bond graphs writes them, so that `ucrit.core.formulas.expressions` reads them back."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def unnamed(x: Any) -> Any:
     from sympy.core.function import Application
     from sympy.core.relational import Relational
 
-    from ..core.expressions import LAWS
+    from ..core.formulas.expressions import LAWS
 
     def named(function: Any) -> bool:
         name = function.func.__name__

@@ -10,8 +10,8 @@ from typing import Any
 
 import sympy as sp
 
+from ..core.contract.model import Names
 from ..core.errors import ModelError
-from ..core.model import Names
 from .algebra import put_together
 from .assignments import Store, assignments, effort, flow
 from .causality import causality

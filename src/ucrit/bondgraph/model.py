@@ -6,10 +6,10 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
-from ..core.declare import Variable
+from ..core.contract.declare import Variable
+from ..core.contract.model import Model, Names, call, check_methods, declared, is_current
 from ..core.errors import ModelError
 from ..core.made import made
-from ..core.model import Model, Names, call, check_methods, declared, is_current
 from .graph import Graph
 
 
@@ -154,7 +154,7 @@ def graph_of(model: type[Model], direction: int | None = 1) -> Graph:
     ModelError
         If the model has no method ``bond_graph``, or only one of a base class that states another motion.
     """
-    from ..core.trace import parameter_symbol, symbolic_instance
+    from ..core.derivation.trace import parameter_symbol, symbolic_instance
 
     if not states_bond_graph(model):
         raise ModelError(f"{model.model_id()} states no bond graph: a method 'bond_graph(self, u)' would")
@@ -191,7 +191,7 @@ def _inputs(u: Names) -> tuple[Any, ...]:
 
 def _declare_states(cls: type[Model]) -> None:
     """Give the class the states of its graph as variables, with the units that the parameters settle."""
-    from ..core.trace import parameter_symbol
+    from ..core.derivation.trace import parameter_symbol
     from .equations import state_equations
     from .units import state_units
 

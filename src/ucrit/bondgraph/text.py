@@ -34,7 +34,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from ..core.declare import Input, Parameter, param, speed
+from ..core.contract.declare import Input, Parameter, param, speed
 from ..core.errors import ModelError, UcritError, near_match
 from .elements import JUNCTIONS, KINDS, MODULATED, SOURCES, TWO_PORTS, Element
 from .graph import ARROW, Graph
@@ -155,7 +155,7 @@ def declared_symbols(sheet: Sheet, direction: int | None = 1) -> dict[str, Any]:
     """Return the symbols of what a text declares, by name."""
     import sympy as sp
 
-    from ..core.trace import parameter_symbol
+    from ..core.derivation.trace import parameter_symbol
 
     symbols = {name: parameter_symbol(_named(p, name), direction) for name, p in sheet.parameters.items()}
     return symbols | {name: sp.Symbol(name, real=True) for name in sheet.inputs}
@@ -242,7 +242,7 @@ def _element(kind: str, rest: str, names: Mapping[str, Any]) -> Element:
 
 
 def _expression(text: str, names: Mapping[str, Any], kind: str, name: str) -> Any:
-    from ..core.expressions import LAWS, parse
+    from ..core.formulas.expressions import LAWS, parse
 
     known = dict(names)
     for match in READING.finditer(text):

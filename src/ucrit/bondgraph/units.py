@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..core.dimensions import NUMBER, dimension_of
+from ..core.derivation.dimensions import NUMBER, dimension_of
 from ..core.errors import ModelError
 from ..core.units import Dimension
 from .elements import JUNCTIONS, Element

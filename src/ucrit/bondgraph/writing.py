@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from ..core.declare import Input, Parameter
+from ..core.contract.declare import Input, Parameter
 from ..core.errors import ModelError
 from .elements import Element
 from .formulas import unnamed

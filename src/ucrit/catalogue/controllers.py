@@ -7,8 +7,8 @@ import os
 from functools import cache
 from typing import TYPE_CHECKING
 
+from ..core.contract.model import Model
 from ..core.errors import UcritError, near_match
-from ..core.model import Model
 from .models import models_in
 from .places import HERE
 

@@ -8,8 +8,8 @@ import pkgutil
 from pathlib import Path
 from typing import Any
 
+from ..core.contract.part import Part
 from ..core.errors import UcritError, near_match
-from ..core.part import Part
 from .places import TIRES
 
 

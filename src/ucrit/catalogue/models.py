@@ -9,9 +9,9 @@ from functools import cache
 from pathlib import Path
 from types import ModuleType
 
+from ..core.contract.files import read_text
+from ..core.contract.model import Model
 from ..core.errors import ModelError, UcritError, near_match
-from ..core.files import read_text
-from ..core.model import Model
 from .places import BONDS, HERE
 
 

@@ -9,10 +9,10 @@ from functools import cache, partial
 from pathlib import Path
 from typing import Any
 
+from ..core.contract.files import Find, parse_vehicle, read_text
+from ..core.contract.model import Model
+from ..core.contract.part import Part
 from ..core.errors import UcritError, near_match
-from ..core.files import Find, parse_vehicle, read_text
-from ..core.model import Model
-from ..core.part import Part
 from .controllers import controlled
 from .laws import find_part
 from .models import find_model, graph_model, model_names

@@ -11,7 +11,7 @@ import os
 from pathlib import Path
 
 from ..analyses.about.show import resolve
-from ..core.model import Model
+from ..core.contract.model import Model
 from .report import Check, Report
 from .subject import Subject
 from .suite import run

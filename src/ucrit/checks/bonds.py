@@ -17,9 +17,9 @@ from ..bondgraph.equations import StateEquations, state_equations
 from ..bondgraph.further import graph_states
 from ..bondgraph.model import BondGraphModel, graph_of, states_bond_graph
 from ..bondgraph.power import power_balance
-from ..core.derive import symbolic
+from ..core.contract.model import Model, Names
+from ..core.derivation.derive import symbolic
 from ..core.errors import UcritError
-from ..core.model import Model, Names
 from .precise import DIGITS, same_up_to_factor
 from .report import FailedCheckError, NotApplicableError
 from .states import random_states

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from ..core.codegen import build, generate
-from ..core.model import as_tuple, call
-from ..core.trace import Traced, symbolic_instance
+from ..core.contract.model import as_tuple, call
+from ..core.derivation.trace import Traced, symbolic_instance
+from ..core.formulas.codegen import build, generate
 from .report import FailedCheckError, NotApplicableError
 from .states import random_states, stacked
 from .subject import Subject

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from ..core.codegen import build, generate
-from ..core.linear import linear_system
-from ..core.nonlinear import solve_for_highest
-from ..core.trace import Traced, trace
+from ..core.derivation.linear import linear_system
+from ..core.derivation.nonlinear import solve_for_highest
+from ..core.derivation.trace import Traced, trace
+from ..core.formulas.codegen import build, generate
 from .matching import same_equations
 from .precise import numeric, same_up_to_factor
 from .published import agree

@@ -7,8 +7,8 @@ from typing import Any
 import mpmath
 import sympy as sp
 
-from ..core.compiled import compiled
 from ..core.errors import near_match
+from ..core.numeric.compiled import compiled
 from .matching import response, same_equations
 from .precise import DIGITS, close, frequencies, numeric, same_up_to_factor
 from .precise import polynomial as value_at

@@ -8,8 +8,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ..catalogue import load
-from ..core.compiled import state_space
-from ..core.model import Model
+from ..core.contract.model import Model
+from ..core.numeric.compiled import state_space
 from .published import Entry
 from .report import FailedCheckError
 from .subject import Subject

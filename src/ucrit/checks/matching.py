@@ -8,7 +8,7 @@ from typing import Any
 import mpmath
 import sympy as sp
 
-from ..core.linear import LinearSystem
+from ..core.derivation.linear import LinearSystem
 from .precise import DIGITS, EQUAL, Point, frequencies, matrix
 
 TYPICAL = (10, 1)  # a polynomial whose root is of the size that vehicles' eigenvalues have, in 1/s

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from ..core.compiled import compiled
+from ..core.numeric.compiled import compiled
 from .precise import matrix, numeric
 from .report import FailedCheckError
 from .sample import Array

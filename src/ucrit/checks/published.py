@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from ..core.contract.files import parse_toml, read_text
 from ..core.errors import UcritError, near_match
-from ..core.expressions import parse
-from ..core.files import parse_toml, read_text
+from ..core.formulas.expressions import parse
 
 #: Keys of every table: those it must have and those it may have.
 TABLES: Mapping[str, tuple[tuple[str, ...], tuple[str, ...]]] = {

@@ -12,10 +12,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ..catalogue import VEHICLES, load, vehicle_names
-from ..core.declare import Parameter
+from ..core.contract.declare import Parameter
+from ..core.contract.model import Model
+from ..core.contract.possible import holds
 from ..core.errors import UcritError
-from ..core.model import Model
-from ..core.possible import holds
 
 Array = npt.NDArray[np.float64]
 Indices = npt.NDArray[np.int_]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from ..core.compiled import compiled
+from ..core.numeric.compiled import compiled
 from ..core.units import Dimension
 from .report import FailedCheckError
 from .sample import Array

@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ..analyses.stability.criteria import criteria
-from ..core.codegen import build, generate
-from ..core.compiled import compiled
 from ..core.errors import UcritError, near_match
+from ..core.formulas.codegen import build, generate
+from ..core.numeric.compiled import compiled
 from .precise import DIGITS, EQUAL, numeric
 from .published import Entry, agree
 from .report import FailedCheckError, NotApplicableError

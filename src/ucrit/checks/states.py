@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from ..core.codegen import build, generate
-from ..core.nonlinear import constraints
-from ..core.trace import Traced
+from ..core.derivation.nonlinear import constraints
+from ..core.derivation.trace import Traced
+from ..core.formulas.codegen import build, generate
 from .sample import Array
 from .subject import Subject
 

@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 
 from ..catalogue import PUBLISHED
-from ..core.derive import symbolic
-from ..core.linear import LinearSystem
-from ..core.model import Model, Names, is_current
-from ..core.motion import Motion, motion
-from ..core.trace import Traced, trace
+from ..core.contract.model import Model, Names, is_current
+from ..core.derivation.derive import symbolic
+from ..core.derivation.linear import LinearSystem
+from ..core.derivation.trace import Traced, trace
+from ..core.numeric.motion import Motion, motion
 from .published import Entry, read_published
 from .report import NotApplicableError
 from .sample import SPREAD, Array, parameter_sets, vehicles_of

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from ..analyses.regions.stability_map import StabilityMap
-    from ..core.model import Model
+    from ..core.contract.model import Model
 
 
 def show_map(console: Console, vehicle: Model, found: StabilityMap) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from ..core.tolerances import Tolerances
+from ..core.contract.tolerances import Tolerances
 from .render import in_few
 from .terminal import Page, vehicle_head
 from .wrap import number, shorten

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from rich.console import Console
 
-    from ..core.model import Model
+    from ..core.contract.model import Model
 
 WIDEST = 110
 """Lines are not made longer than this on a wide terminal."""

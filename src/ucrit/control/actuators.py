@@ -5,11 +5,11 @@ from __future__ import annotations
 from math import factorial
 from typing import Any
 
-from ..core.declare import Input, Parameter, Variable
+from ..core.contract.declare import Input, Parameter, Variable
+from ..core.contract.model import Model
 from ..core.errors import UcritError, near_match
-from ..core.functions import maximum, minimum
+from ..core.formulas.functions import maximum, minimum
 from ..core.made import made
-from ..core.model import Model
 from .controller import Controller
 
 MOST = 12

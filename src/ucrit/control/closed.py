@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from ..core.declare import Output, Parameter
+from ..core.contract.declare import Output, Parameter
+from ..core.contract.model import Model
 from ..core.errors import ModelError, UcritError, near_match
 from ..core.made import made
-from ..core.model import Model
 from .controller import Controller
 from .loop import ClosedLoop, methods
 

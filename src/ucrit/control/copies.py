@@ -11,10 +11,10 @@ from dataclasses import dataclass, replace
 from functools import cache
 from typing import Any
 
-from ..core.compiled import compiled
-from ..core.declare import Quantity, Variable
+from ..core.contract.declare import Quantity, Variable
+from ..core.contract.model import Model
 from ..core.errors import UcritError, near_match
-from ..core.model import Model
+from ..core.numeric.compiled import compiled
 
 KNOWN = "known"
 """Ending of parameters that the law has values of its own for."""
@@ -179,7 +179,7 @@ def rates(model: type[Model], suffix: str, parameters: Mapping[str, Any], x: Any
 
 
 def _solve(model: type[Model]) -> Any:
-    from ..core.nonlinear import solve_for_highest
+    from ..core.derivation.nonlinear import solve_for_highest
 
     traced = traced_once(model, None)
     solved = solve_for_highest(traced)
@@ -213,7 +213,7 @@ def linear_in_symbols(model: type[Model], direction: int = 1) -> tuple[list[str]
     """Return states, A and B of ``w' = A w + B u`` in symbols, and the parameters' symbols by name."""
     import sympy as sp
 
-    from ..core.linear import linearize
+    from ..core.derivation.linear import linearize
 
     refuse_constrained(model)
     system = linearize(traced_once(model, direction))
@@ -232,7 +232,7 @@ def linear_in_symbols(model: type[Model], direction: int = 1) -> tuple[list[str]
 
 
 def _trace(model: type[Model], direction: int | None) -> Any:
-    from ..core.trace import trace
+    from ..core.derivation.trace import trace
 
     return trace(model, direction)
 

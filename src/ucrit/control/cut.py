@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, ClassVar
 
-from ..core.declare import Input, Output
+from ..core.contract.declare import Input, Output
+from ..core.contract.model import Model
 from ..core.errors import UcritError
 from ..core.made import made
-from ..core.model import Model
 from .closed import close_once
 from .controller import Controller
 from .loop import chain_of

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..core.compiled import state_space
+from ..core.contract.model import Model
 from ..core.errors import UcritError
-from ..core.model import Model
+from ..core.numeric.compiled import state_space
 from .actuators import input_of
 from .closed import close
 from .copies import parameter_values, state_names

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from ..core.declare import Parameter, algebraic
+from ..core.contract.declare import Parameter, algebraic
+from ..core.contract.model import Model
 from ..core.errors import UcritError, near_match
 from ..core.made import made
-from ..core.model import Model
 from .actuators import input_of, model_of
 from .controller import Controller
 from .copies import (

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..core.events import Event, event
-from ..core.functions import sign, where
+from ..core.contract.events import Event, event
+from ..core.formulas.functions import sign, where
 from .copies import DESIRED, plain_name, symbol_of
 from .feedback import HAT
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from ..core.declare import Input, Output
+from ..core.contract.declare import Input, Output
+from ..core.contract.model import Model
 from ..core.made import made
-from ..core.model import Model
 from .actuators import Delay
 from .closed import closed
 from .controller import Controller

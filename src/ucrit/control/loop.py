@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
+from ..core.contract.model import Model, Names, as_tuple, call
 from ..core.errors import ModelError
-from ..core.model import Model, Names, as_tuple, call
 from .controller import Controller
 
 if TYPE_CHECKING:
-    from ..core.trace import Traced, Written
+    from ..core.derivation.trace import Traced, Written
 
 
 class ClosedLoop(Model):
@@ -56,7 +56,7 @@ class ClosedLoop(Model):
         """Return the equations as people write them: the vehicle's, the controller's, and the law by the side."""
         from sympy import Symbol
 
-        from ..core.trace import Written, groups_of, written
+        from ..core.derivation.trace import Written, groups_of, written
 
         plant, own, reaches = self._traced(), self._law(), dict(self._reaches)
         q = list(traced.q[: len(traced.q) - traced.multipliers])
@@ -183,7 +183,7 @@ def _reaching(name: str) -> Any:
 
 
 def _trace_once(plant: type[Model], direction: int | None) -> Any:
-    from ..core.trace import trace
+    from ..core.derivation.trace import trace
 
     return trace(plant, direction)
 

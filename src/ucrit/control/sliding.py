@@ -13,11 +13,11 @@ from typing import Any
 
 import numpy.typing as npt
 
-from ..core.declare import Input, Output, Parameter, algebraic
+from ..core.contract.declare import Input, Output, Parameter, algebraic
+from ..core.contract.model import Model
 from ..core.errors import UcritError
-from ..core.functions import maximum, minimum
+from ..core.formulas.functions import maximum, minimum
 from ..core.made import made
-from ..core.model import Model
 from .actuators import Actuator, input_of, model_of
 from .controller import Controller
 from .copies import (

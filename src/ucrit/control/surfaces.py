@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ..core.compiled import state_space
+from ..core.contract.model import Model
 from ..core.errors import UcritError
-from ..core.model import Model
+from ..core.numeric.compiled import state_space
 from .closed import close
 from .copies import DESIRED, KNOWN, checked_states, parameter_values, plain_name, state_names
 from .gains import in_words, named

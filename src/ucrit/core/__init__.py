@@ -3,13 +3,13 @@
 Knows no vehicle and no analysis.
 """
 
-from .declare import algebraic, coordinate, input, output, param, speed, state
-from .drawing import Body, Drawing
+from .contract.declare import algebraic, coordinate, input, output, param, speed, state
+from .contract.drawing import Body, Drawing
+from .contract.events import event
+from .contract.model import Model
+from .contract.part import Part, slot
 from .errors import MissingExtraError, ModelError, UcritError
-from .events import event
-from .functions import asin, atan, atan2, cos, exp, log, maximum, minimum, sign, sin, sqrt, tan, tanh, where
-from .model import Model
-from .part import Part, slot
+from .formulas.functions import asin, atan, atan2, cos, exp, log, maximum, minimum, sign, sin, sqrt, tan, tanh, where
 
 __all__ = [
     "Body",

@@ -5,7 +5,7 @@ behind. f_x acts along, f_y across the rolling direction, for one wheel.
 """
 
 from ..core import Drawing, Model, coordinate, cos, param, sin, speed
-from ..core.drawing import box
+from ..core.contract.drawing import box
 from ..parts.creep import contact_velocities, creep_forces
 from ..parts.shapes import rails, wheelset
 

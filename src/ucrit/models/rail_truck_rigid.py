@@ -6,7 +6,7 @@ with gravity.
 """
 
 from ..core import Drawing, Model, coordinate, cos, param, sin, speed
-from ..core.drawing import box, moved
+from ..core.contract.drawing import box, moved
 from ..parts.creep import contact_velocities, creep_forces
 from ..parts.shapes import rails, wheelset
 

@@ -4,7 +4,7 @@ A plane holds heave, roll and pitch at zero, with a force and two moments that d
 """
 
 from ..core import Drawing
-from ..core.drawing import box
+from ..core.contract.drawing import box
 from ..parts.shapes import radius_of_gyration
 from .rigid_body_symmetric import RigidBodySymmetric
 

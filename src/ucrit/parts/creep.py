@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..core.functions import cos, length, maximum, sin, where
+from ..core.formulas.functions import cos, length, maximum, sin, where
 
 
 def contact_velocities(V: Any, y: Any, psi: Any, dy: Any, dpsi: Any, d: Any, r_0: Any, conicity: Any) -> Any:

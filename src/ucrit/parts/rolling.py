@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ..core.functions import tan
+from ..core.formulas.functions import tan
 
 
 def rolling_motion(U: Any, a: Any, b: Any, delta_f: Any, delta_r: Any) -> tuple[Any, Any]:

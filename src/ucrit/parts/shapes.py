@@ -7,7 +7,7 @@ import math
 
 import numpy as np
 
-from ..core.drawing import Body, box, disc, line, moved, wheel
+from ..core.contract.drawing import Body, box, disc, line, moved, wheel
 
 WHEEL = 0.22, 0.08
 """Length and width of a wheel, as shares of the vehicle's length."""

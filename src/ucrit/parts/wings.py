@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ..core.functions import atan, cos, sin, tanh
+from ..core.formulas.functions import atan, cos, sin, tanh
 
 
 def angle_of_attack(forward: Any, downward: Any) -> Any:

@@ -14,7 +14,7 @@ from ..core.errors import UcritError
 if TYPE_CHECKING:
     from ..analyses.stability.critical import Critical, CriticalValues
     from ..analyses.stability.locus import Locus
-    from ..core.declare import Parameter
+    from ..core.contract.declare import Parameter
 
 Array = npt.NDArray[Any]
 

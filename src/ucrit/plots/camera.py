@@ -83,7 +83,7 @@ def frame_rate(times: Array) -> float:
 
 def caption(scene: Scene) -> str:
     """Return what is seen, in words."""
-    from ..core.drawing import VIEWS
+    from ..core.contract.drawing import VIEWS
 
     name = scene.vehicle.info.name or type(scene.vehicle).__name__
     larger = "" if scene.enlarged == 1 else f", departures drawn {scene.enlarged:g} times as large"

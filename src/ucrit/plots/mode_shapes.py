@@ -11,7 +11,7 @@ from . import labels, style
 
 if TYPE_CHECKING:
     from ..analyses.linear.modes import Mode
-    from ..core.model import Model
+    from ..core.contract.model import Model
 
 RADIUS = 0.28
 PITCH = 0.86

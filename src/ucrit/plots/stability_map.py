@@ -12,8 +12,8 @@ from . import labels, style
 
 if TYPE_CHECKING:
     from ..analyses.regions.stability_map import StabilityMap
-    from ..core.declare import Parameter
-    from ..core.model import Model
+    from ..core.contract.declare import Parameter
+    from ..core.contract.model import Model
 
 Array = npt.NDArray[Any]
 Point = tuple[float, float]

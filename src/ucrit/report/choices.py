@@ -9,13 +9,13 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from ..core.contract.possible import allowed
 from ..core.errors import UcritError, near_match
-from ..core.possible import allowed
 
 if TYPE_CHECKING:
     from ..analyses.stability.analyze import Analysis
     from ..analyses.stability.locus import Locus
-    from ..core.model import Model
+    from ..core.contract.model import Model
 
 Array = npt.NDArray[np.float64]
 

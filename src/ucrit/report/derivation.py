@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from ..analyses.about.show import Formula, Matrix, ModelDescription
-    from ..core.declare import Quantity
+    from ..core.contract.declare import Quantity
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from ..analyses.linear.modes import Mode
     from ..analyses.stability.analyze import Analysis
     from ..analyses.stability.critical import Critical
-    from ..core.model import Model
+    from ..core.contract.model import Model
 
 KINDS = {
     "flutter": "flutter: an oscillation grows",

@@ -27,7 +27,7 @@ from .subject import ends, parameter
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from ..core.model import Model
+    from ..core.contract.model import Model
 
 POINTS = 60
 """Even steps of a root locus on the page; it is refined where eigenvalues move fast."""
@@ -119,7 +119,7 @@ def say_speed(body: Mapping[str, Any]) -> Callable[[float], str]:
 
 
 def _states(vehicle: Model) -> list[Answer]:
-    from ..core.compiled import labels
+    from ..core.numeric.compiled import labels
 
     variables, found = type(vehicle).declaration.variables, []
     for label in labels(vehicle):

@@ -17,7 +17,7 @@ from ..plots.cycles import pieces, shown, straight, window
 from .answers import Answer, say_speed
 
 if TYPE_CHECKING:
-    from ..core.model import Model
+    from ..core.contract.model import Model
 
 PATIENCE = 45.0
 """Seconds of computing after which limit cycles are given up."""

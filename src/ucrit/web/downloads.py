@@ -14,9 +14,9 @@ from typing import Any
 from ..analyses.stability.analyze import analyze
 from ..analyses.stability.critical import critical
 from ..analyses.stability.locus import Locus, locus
+from ..core.contract.files import write_vehicle
+from ..core.contract.model import Model
 from ..core.errors import UcritError, near_match
-from ..core.files import write_vehicle
-from ..core.model import Model
 from .ranges import drawn_range, slider_range
 from .subject import ends, parameter
 

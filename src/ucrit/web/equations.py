@@ -13,7 +13,7 @@ from .answers import say_speed
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from ..core.model import Model
+    from ..core.contract.model import Model
 
 HERE = Path(__file__).resolve().parent
 

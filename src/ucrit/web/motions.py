@@ -16,7 +16,7 @@ from ..plots.camera import caption, frame_times
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
-    from ..core.model import Model
+    from ..core.contract.model import Model
 
 SHORTEST, LONGEST = 0.5, 20.0
 """How long [s] a motion after a disturbance is followed."""

@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-from ..core.possible import allowed
+from ..core.contract.possible import allowed
 
 if TYPE_CHECKING:
     from ..analyses.stability.analyze import Analysis
-    from ..core.declare import Parameter
-    from ..core.model import Model
+    from ..core.contract.declare import Parameter
+    from ..core.contract.model import Model
 
 REACH = 3.0
 """End of a slider as a multiple of the value it starts with."""

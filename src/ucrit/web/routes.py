@@ -29,7 +29,7 @@ from .subject import read_json, read_subject
 if TYPE_CHECKING:
     from starlette.requests import Request
 
-    from ..core.model import Model
+    from ..core.contract.model import Model
 
 ASSETS = Path(__file__).resolve().parent / "assets"
 TYPES = {

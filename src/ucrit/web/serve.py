@@ -10,8 +10,8 @@ from collections.abc import Callable
 from typing import Any
 from urllib.parse import urlencode
 
+from ..core.contract.model import Model
 from ..core.errors import MissingExtraError, UcritError
-from ..core.model import Model
 
 PORT = 8642
 HOST = "127.0.0.1"
@@ -86,7 +86,7 @@ def app(
 def _fragment(vehicle: Model | str | os.PathLike[str] | None) -> str:
     """Return the part of the address that tells the page what to show; it never goes over the line."""
     from ..catalogue import load, read_vehicle, vehicle_names
-    from ..core.files import write_vehicle
+    from ..core.contract.files import write_vehicle
 
     if vehicle is None:
         return ""

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..catalogue import load, read_vehicle, vehicle_names
+from ..core.contract.model import Model
 from ..core.errors import UcritError, near_match
-from ..core.model import Model
 
 LOADED = "the loaded text"
 LONGEST_NUMBER = 64

@@ -9,7 +9,7 @@ from functools import cache
 from typing import Any
 
 from ...catalogue import HERE
-from ...core.files import read_text
+from ...core.contract.files import read_text
 
 FILE = HERE / "data" / "bibliography.toml"
 SOFTWARE = "ucrit"

@@ -15,11 +15,11 @@ from ...bondgraph.graph import Graph
 from ...bondgraph.model import graph_of, input_symbols, states_bond_graph
 from ...bondgraph.text import Sheet, declared_symbols, read_sheet
 from ...catalogue import BONDS, find_model, load, model_names, vehicle_names
-from ...core.declare import Input, Parameter
+from ...core.contract.declare import Input, Parameter
+from ...core.contract.files import read_text
+from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
-from ...core.files import read_text
 from ...core.html import Rich
-from ...core.model import Model
 
 SCHEMA = 1
 WHY = {
@@ -181,7 +181,7 @@ def bonds(subject: Graph | type[Model] | Model | str | os.PathLike[str]) -> Bond
 
 def _told(rate: Any) -> str:
     from ...bondgraph.formulas import formula
-    from ...core.typeset import text
+    from ...core.formulas.typeset import text
 
     told = text(rate)
     return formula(rate) if "Piecewise" in told else told

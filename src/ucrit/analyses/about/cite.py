@@ -26,9 +26,9 @@ from ...catalogue import (
     tire_names,
     vehicle_names,
 )
+from ...core.contract.model import Model
+from ...core.contract.part import Part
 from ...core.errors import UcritError, near_match
-from ...core.model import Model
-from ...core.part import Part
 from ...core.record import Record
 from .bibliography import SOFTWARE, Work, works, works_in
 from .show import resolve

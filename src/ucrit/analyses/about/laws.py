@@ -8,9 +8,9 @@ from typing import Any
 
 from ...catalogue import find_controller
 from ...control import Controller
-from ...core.declare import Input, Output, Parameter, Variable
+from ...core.contract.declare import Input, Output, Parameter, Variable
+from ...core.contract.model import Model, as_tuple, call
 from ...core.html import Rich
-from ...core.model import Model, as_tuple, call
 
 
 @dataclass(frozen=True)
@@ -97,7 +97,7 @@ def describe_controller(subject: type[Controller] | str) -> ControllerDescriptio
     >>> print(describe_controller("yaw-rate-feedback").law["delta_f"])
     G*(-r + r_d)
     """
-    from ...core.trace import parameter_symbol, symbolic_instance
+    from ...core.derivation.trace import parameter_symbol, symbolic_instance
 
     cls: type[Model] = find_controller(subject) if isinstance(subject, str) else subject
     declared = cls.declaration

@@ -9,9 +9,9 @@ import tomllib
 from dataclasses import dataclass
 
 from ...catalogue import BONDS, VEHICLES, controller_names, find_controller, find_model, model_names, vehicle_names
+from ...core.contract.files import read_text, vehicle_template, write_vehicle
+from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
-from ...core.files import read_text, vehicle_template, write_vehicle
-from ...core.model import Model
 from .show import resolve
 
 KINDS = ("models", "vehicles", "controllers")

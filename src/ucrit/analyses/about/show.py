@@ -12,11 +12,11 @@ from typing import Any
 
 from ...catalogue import BONDS, PUBLISHED, controller_names, find_model, load, model_names, vehicle_names
 from ...core import html
-from ...core.cache import cached
-from ...core.compiled import direction
-from ...core.declare import Input, Output, Parameter, Variable
+from ...core.contract.declare import Input, Output, Parameter, Variable
+from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
-from ...core.model import Model
+from ...core.numeric.cache import cached
+from ...core.numeric.compiled import direction
 from ...core.record import Record
 from ..stability.analyze import criteria_or_why
 from ..stability.criteria import Criteria

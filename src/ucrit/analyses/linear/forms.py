@@ -15,9 +15,9 @@ from typing import Any, ClassVar
 import numpy as np
 import numpy.typing as npt
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError
 from ...core.html import Rich
-from ...core.model import Model
 
 Array = npt.NDArray[Any]
 
@@ -41,7 +41,7 @@ class LinearForm(Rich):
     @cached_property
     def coefficients(self) -> tuple[Any, ...]:
         """Ascending coefficients of the characteristic polynomial; in numbers the last of them is 1."""
-        from ...core.characteristic import characteristic_polynomial
+        from ...core.derivation.characteristic import characteristic_polynomial
 
         found = characteristic_polynomial(self.matrices, "linear equations").expressions
         return tuple(a / found[-1] for a in found) if all(a.is_number for a in found) else found
@@ -272,8 +272,8 @@ def forms(vehicle: Model | type[Model], *, direction: int | None = None) -> Form
     A = [[0, 1], [-k/m, -b/m]]
     states = x, x'
     """
-    from ...core.compiled import direction as direction_of
-    from ...core.derive import symbolic
+    from ...core.derivation.derive import symbolic
+    from ...core.numeric.compiled import direction as direction_of
     from .forms_convert import exact, solved_for_rates
 
     model = vehicle if isinstance(vehicle, type) else type(vehicle)

@@ -11,12 +11,12 @@ import numpy.typing as npt
 import sympy as sp
 from sympy.polys.matrices import DomainMatrix
 
-from ...core import typeset
+from ...core.contract.model import Model
+from ...core.derivation.linear import LinearSystem
+from ...core.derivation.rings import polynomial_field
+from ...core.derivation.trace import Traced
 from ...core.errors import UcritError
-from ...core.linear import LinearSystem
-from ...core.model import Model
-from ...core.rings import polynomial_field
-from ...core.trace import Traced
+from ...core.formulas import typeset
 
 Matrices = Sequence[sp.ImmutableMatrix]
 
@@ -95,7 +95,7 @@ def solved_for_rates(matrices: Matrices, names: Sequence[str]) -> tuple[sp.Immut
     """Return A of ``x' = A x`` and the names of the states, a prime for each derivative.
 
     Equations without highest derivatives (constraints, parts without mass) lower the order; see
-    `ucrit.core.explicit`.
+    `ucrit.core.derivation.explicit`.
     """
     P, n = without_zeros(matrices), matrices[0].rows
     q = tuple(tuple(sp.Dummy(f"{name}{k}") for k in range(len(P))) for name in names)

@@ -8,12 +8,12 @@ from typing import Any
 
 import sympy as sp
 
-from ...core import typeset as to
-from ...core.derive import symbolic
-from ...core.factor import factored
-from ...core.linear import LinearSystem
-from ...core.model import Model
-from ...core.trace import Traced, written
+from ...core.contract.model import Model
+from ...core.derivation.derive import symbolic
+from ...core.derivation.linear import LinearSystem
+from ...core.derivation.trace import Traced, written
+from ...core.formulas import typeset as to
+from ...core.formulas.factor import factored
 from .pieces import named_pieces
 
 LONGER = 2

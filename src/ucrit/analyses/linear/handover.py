@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from typing import Any
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
 from ..results.convert import needed
 
 

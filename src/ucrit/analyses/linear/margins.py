@@ -9,9 +9,9 @@ import numpy as np
 import numpy.typing as npt
 
 from ...control import broken, driven
-from ...core.compiled import deciding_coefficients, state_space
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
+from ...core.numeric.compiled import deciding_coefficients, state_space
 from ...numerics.hurwitz import stable
 from ...numerics.loops import from_roots, loop_margins
 from ..results.convert import Series, Table, Tabular, unit_of

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.compiled import compiled, direction, labels, state_space
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
+from ...core.numeric.compiled import compiled, direction, labels, state_space
 from ...core.record import Record
 from ...core.units import dimension
 from ...numerics.assignment import assign

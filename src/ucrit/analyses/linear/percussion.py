@@ -8,11 +8,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.cache import cached
-from ...core.compiled import direction, labels, state_space
+from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
 from ...core.html import Rich
-from ...core.model import Model
+from ...core.numeric.cache import cached
+from ...core.numeric.compiled import direction, labels, state_space
 
 Array = npt.NDArray[Any]
 
@@ -118,8 +118,8 @@ def _formula(model: type[Model], sense: int, input: str, lateral: str, yaw: str)
     """Return minus the ratio of the two rates that the input causes."""
     import sympy as sp
 
-    from ...core import typeset as to
-    from ...core.derive import symbolic
+    from ...core.derivation.derive import symbolic
+    from ...core.formulas import typeset as to
 
     system = symbolic(model, sense)
     e, names = system.explicit, [chain[0].name for chain in system.traced.q]

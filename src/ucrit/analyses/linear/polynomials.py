@@ -10,14 +10,14 @@ Texts = dict[str, str]
 
 def product(polynomial: Any, functions: Mapping[Any, Any]) -> Any:
     """Return a polynomial in the parameters as an expression, split into its factors."""
-    from ...core.factor import factored
+    from ...core.formulas.factor import factored
 
     return factored(polynomial).xreplace(dict(functions))
 
 
 def in_s(coefficients: Sequence[Any]) -> Texts:
     """Return ``sum c_k s**k`` (expressions, ascending) as text, LaTeX and MathML, highest power first."""
-    from ...core import typeset
+    from ...core.formulas import typeset
 
     texts, latexs, mathmls = [], [], []
     for k, c in reversed([*enumerate(coefficients)]):
@@ -54,7 +54,7 @@ def factored_in_s(polynomial: Any, functions: Mapping[Any, Any]) -> Texts:
     """Return a polynomial in parameters and s, the ring's last generator, factored, ready to be shown."""
     import sympy as sp
 
-    from ...core.cramer import split_in_s
+    from ...core.derivation.cramer import split_in_s
 
     content, found = split_in_s(polynomial)
     constant = sp.Integer(content)

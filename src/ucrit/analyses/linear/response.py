@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.compiled import labels, state_space
+from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
-from ...core.model import Model
+from ...core.numeric.compiled import labels, state_space
 from ...numerics.exponential import expm
 from .modes import modes
 from .response_results import FrequencyResponse, TimeResponse

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
-from ...core.model import Model
 from ..results.convert import Series, Table, Tabular, complex_series, needed, unit_of
 
 Array = npt.NDArray[Any]

@@ -16,11 +16,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.cache import cached
-from ...core.codegen import build
+from ...core.contract.model import Model
 from ...core.errors import UcritError
+from ...core.formulas.codegen import build
 from ...core.html import Rich
-from ...core.model import Model
+from ...core.numeric.cache import cached
 
 Array = npt.NDArray[Any]
 
@@ -209,11 +209,11 @@ def steady_turn(vehicle: Model, steer: str = "delta_f") -> SteadyTurn:
 
 def _derive(cls: type[Model], steer: str) -> dict[str, Any]:
     """Write U delta/r as L + K U^2."""
-    from ...core import typeset
-    from ...core.codegen import generate
-    from ...core.cramer import cramer
-    from ...core.derive import symbolic
-    from ...core.factor import readable_ratio
+    from ...core.derivation.cramer import cramer
+    from ...core.derivation.derive import symbolic
+    from ...core.formulas import typeset
+    from ...core.formulas.codegen import generate
+    from ...core.formulas.factor import readable_ratio
 
     system = symbolic(cls, 1)
     found = cramer(system, steer, "r")

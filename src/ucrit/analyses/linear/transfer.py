@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.cache import cached
-from ...core.codegen import build
-from ...core.compiled import direction as direction_of
-from ...core.cramer import check_names
+from ...core.contract.model import Model
+from ...core.derivation.cramer import check_names
 from ...core.errors import UcritError, near_match
-from ...core.model import Model
+from ...core.formulas.codegen import build
+from ...core.numeric.cache import cached
+from ...core.numeric.compiled import direction as direction_of
 from .handover import HandOver
 
 Array = npt.NDArray[Any]
@@ -258,11 +258,11 @@ def _unit(cls: type[Model], input: str, output: str) -> str:
 
 
 def _derive(cls: type[Model], direction: int, input: str, output: str, given: Mapping[str, Any]) -> dict[str, Any]:
-    from ...core import typeset
-    from ...core.codegen import generate
-    from ...core.cramer import cramer
-    from ...core.derive import symbolic
-    from ...core.expressions import parse
+    from ...core.derivation.cramer import cramer
+    from ...core.derivation.derive import symbolic
+    from ...core.formulas import typeset
+    from ...core.formulas.codegen import generate
+    from ...core.formulas.expressions import parse
     from .polynomials import factored_in_s, product
 
     system = symbolic(cls, direction)

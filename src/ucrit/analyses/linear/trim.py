@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
-from ...core.model import Model
-from ...core.motion import motion
+from ...core.numeric.motion import motion
 from ..results.convert import Series, Table, Tabular, unit_of
 
 Array = npt.NDArray[Any]

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError
 from ...core.html import Rich
-from ...core.model import Model
-from ...core.motion import Motion, motion
+from ...core.numeric.motion import Motion, motion
 from ...numerics.prony import fit_exponents
 from ..linear.modes import Mode, modes, rigid_positions
 from .follow import Drive, Follower

@@ -10,9 +10,9 @@ import numpy.typing as npt
 
 from ...control import broken, driven
 from ...control.late import Late, exactly_delayed
+from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
-from ...core.model import Model
-from ...core.motion import motion
+from ...core.numeric.motion import motion
 from ...core.units import to_si
 from .late import LateInput
 from .simulate import followed

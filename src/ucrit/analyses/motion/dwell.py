@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
 from ..results.convert import Array, Series, Table, Tabular
 from .manoeuvres import SineWithDwell
 from .scene import scene

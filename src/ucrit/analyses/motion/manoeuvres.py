@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from ...core.declare import Quantity
+from ...core.contract.declare import Quantity
 from ...core.errors import UcritError
 from ...core.units import to_si
 

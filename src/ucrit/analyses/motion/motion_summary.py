@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.motion import motion
+from ...core.numeric.motion import motion
 from ...numerics.prony import fit_exponents
 from .simulation import Simulation
 

@@ -11,8 +11,8 @@ import numpy.typing as npt
 
 from ...bondgraph.graph import Bond
 from ...bondgraph.model import BondGraphModel, graph_of, states_bond_graph
+from ...core.contract.model import Model, Names
 from ...core.errors import UcritError
-from ...core.model import Model, Names
 from ..results.convert import Series, Table, Tabular
 from .simulation import Simulation
 
@@ -140,8 +140,8 @@ def _made(model: type[Model]) -> tuple[tuple[Bond, ...], list[str], Any]:
     from ...bondgraph.further import graph_states
     from ...bondgraph.power import power_balance
     from ...bondgraph.statements import statements
-    from ...core.codegen import build, generate
-    from ...core.trace import trace
+    from ...core.derivation.trace import trace
+    from ...core.formulas.codegen import build, generate
 
     traced = trace(model, None)
     found = state_equations(graph_of(model, None), traced.u)

@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.compiled import labels
-from ...core.drawing import Drawing
+from ...core.contract.drawing import Drawing
+from ...core.contract.model import Model, Names, call
 from ...core.errors import UcritError
-from ...core.model import Model, Names, call
-from ...core.motion import motion
+from ...core.numeric.compiled import labels
+from ...core.numeric.motion import motion
 from ..linear.modes import Mode
 from .simulation import Simulation
 

@@ -9,10 +9,10 @@ import numpy as np
 import numpy.typing as npt
 
 from ...control.late import exactly_delayed
-from ...core.declare import Quantity
+from ...core.contract.declare import Quantity
+from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
-from ...core.model import Model
-from ...core.motion import Motion, motion
+from ...core.numeric.motion import Motion, motion
 from ...core.units import to_si
 from .follow import METHODS, Course, Drive, Follower
 from .late import LateInput, Memory

@@ -8,8 +8,8 @@ import os
 import re
 from pathlib import Path
 
+from ...core.contract.files import read_text
 from ...core.errors import UcritError, near_match
-from ...core.files import read_text
 from ...core.units import to_si
 
 _HEAD = re.compile(r"^(.+?)\s*\[\s*(.+?)\s*\]$")

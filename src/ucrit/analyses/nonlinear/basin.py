@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
 from ...core.html import Rich
-from ...core.model import Model
-from ...core.motion import motion
+from ...core.numeric.motion import motion
 from .cycle import Cycle
 from .cycle_words import amplitude_text, value_text
 from .cycles import LimitCycles, field_of, limit_cycles

@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.model import Model
-from ...core.motion import motion
+from ...core.contract.model import Model
+from ...core.numeric.motion import motion
 from ...core.units import to_si
 from ...numerics.collocation import Field
 from ...numerics.cycle_branch import at_parameter

@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.compiled import compiled, direction
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
-from ...core.motion import motion
+from ...core.numeric.compiled import compiled, direction
+from ...core.numeric.motion import motion
 from ...core.units import to_si
 from ...numerics.collocation import Field
 from ...numerics.cycle_branch import follow

@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
 from ...core.units import to_si
 from ..linear.steady import GRAVITY
 from ..results.convert import Series, Table, Tabular

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError
 from ...core.html import Rich
-from ...core.model import Model
 from ..linear.steady import GRAVITY
 from .handling_words import acceleration
 from .steady_family import steady_family

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
 from ...numerics.continuation import Curve, NoConvergenceError, follow
 from ...numerics.signs import real_parts
 from ..results.convert import Series, Table, Tabular, complex_series

@@ -13,9 +13,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
-from ...core.model import Model
-from ...core.motion import Slopes, motion
+from ...core.numeric.motion import Slopes, motion
 from ...core.units import to_si
 from ...numerics.continuation import Curve, NoConvergenceError, follow
 

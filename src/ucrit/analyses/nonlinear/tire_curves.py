@@ -12,9 +12,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...core.contract.model import Model
+from ...core.contract.part import Part, slot
 from ...core.errors import UcritError, near_match
-from ...core.model import Model
-from ...core.part import Part, slot
 from ..results.convert import Series, Table, Tabular
 
 Array = npt.NDArray[Any]

@@ -8,8 +8,8 @@ from typing import Any, Literal
 
 import numpy as np
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
 from ...core.units import to_si
 from ..linear.steady import GRAVITY
 from .steady_family import SteadyFamily, steady_family

@@ -14,10 +14,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.codegen import build
-from ...core.compiled import Compiled, compiled, deciding, direction
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
+from ...core.formulas.codegen import build
+from ...core.numeric.compiled import Compiled, compiled, deciding, direction
 from ...core.units import to_si
 from ...numerics.enclosures import Enclosure, EnclosureFunctions, excluded
 from ...numerics.rounded import conditions

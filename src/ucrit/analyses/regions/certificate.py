@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.compiled import compiled
-from ...core.model import Model
+from ...core.contract.model import Model
+from ...core.numeric.compiled import compiled
 from ..results.convert import Series, Table, Tabular, unit_of
 from ..stability.wording import speed_text
 

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...core.contract.model import Model
+from ...core.contract.possible import holds
 from ...core.errors import UcritError, near_match
-from ...core.model import Model
-from ...core.possible import holds
 from ...numerics.rigorous import Boxes, Proved, exact_pair
 from ..linear.modes import eigenvalues
 from .certificate import Certificate, Counterexample, sense_of

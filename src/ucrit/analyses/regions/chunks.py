@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.compiled import compiled, direction
+from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
-from ...core.model import Model
+from ...core.numeric.compiled import compiled, direction
 from ..results.convert import unit_of
 from .stability_map import stability_map
 from .sweep import read_ranges, sweep

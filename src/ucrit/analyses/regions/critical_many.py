@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.compiled import Compiled, compiled, deciding
-from ...core.model import Model
+from ...core.contract.model import Model
+from ...core.numeric.compiled import Compiled, compiled, deciding
 from ...core.record import Record
 from ...numerics.bundles import hurwitz_bundle, real_parts
 from ...numerics.hurwitz import stable as hurwitz_stable

@@ -13,10 +13,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.codegen import build
-from ...core.compiled import compiled, deciding
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
+from ...core.formulas.codegen import build
+from ...core.numeric.compiled import compiled, deciding
 from ...numerics.rigorous import Boxes, Proved, ProvedFunctions, minors
 
 Array = npt.NDArray[Any]

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
 from ..results.convert import Series, Table, Tabular, needed
 
 Array = npt.NDArray[Any]

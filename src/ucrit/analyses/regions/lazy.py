@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.model import Model
+from ...core.contract.model import Model
 from ..results.convert import needed
 from .chunks import Job, job
 

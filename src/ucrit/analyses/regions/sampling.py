@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
 
 Array = npt.NDArray[Any]
 

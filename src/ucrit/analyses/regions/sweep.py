@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.compiled import coefficients, compiled, direction
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
+from ...core.numeric.compiled import coefficients, compiled, direction
 from ...numerics.hurwitz import right_half_plane
 from ..linear.modes import eigenvalues, growth, rigid_positions
 from ..results.convert import Series, Table, Tabular, complex_series, unit_of

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.compiled import direction
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
+from ...core.numeric.compiled import direction
 from ...core.units import to_si
 from ..results.convert import Series, Table, Tabular, unit_of
 from ..stability.wording import speed_text

@@ -19,9 +19,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.compiled import labels, state_space
+from ...core.contract.model import Model
 from ...core.errors import MissingExtraError, UcritError
-from ...core.model import Model
+from ...core.numeric.compiled import labels, state_space
 from ...core.record import Record
 from .matlab import matlab_names
 

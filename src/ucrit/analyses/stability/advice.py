@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from ...core.compiled import deciding_coefficients
-from ...core.possible import allowed
+from ...core.contract.possible import allowed
+from ...core.numeric.compiled import deciding_coefficients
 from ...numerics.hurwitz import stable
 from ..results.digits import decimal_text, rounded
 from .remedies import SPEEDS, Remedy

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from ...catalogue import load
-from ...core.compiled import direction
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
+from ...core.numeric.compiled import direction
 from ...core.record import Record
 from ..linear.modes import Mode, modes
 from .criteria import Criteria, Criterion, criteria

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError
 from ...core.html import Rich
-from ...core.model import Model
 from ..linear.modes import Mode, modes
 
 

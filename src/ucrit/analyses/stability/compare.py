@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from ...core.compiled import direction
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
+from ...core.numeric.compiled import direction
 from ...core.record import Record
 from ..linear.modes import Mode, modes
 from .critical import CriticalValues, critical

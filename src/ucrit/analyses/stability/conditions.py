@@ -8,11 +8,11 @@ from typing import Any
 import sympy as sp
 from sympy.polys.rings import PolyElement
 
-from ...core import typeset as to
-from ...core.characteristic import CharacteristicPolynomial
-from ...core.codegen import generate
+from ...core.derivation.characteristic import CharacteristicPolynomial
 from ...core.errors import UcritError
-from ...core.factor import definite_sign, factors, readable, readable_ratio
+from ...core.formulas import typeset as to
+from ...core.formulas.codegen import generate
+from ...core.formulas.factor import definite_sign, factors, readable, readable_ratio
 from ...numerics.determinants import hurwitz_matrix
 from .implied import excluded, implied
 

@@ -13,15 +13,15 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from ...core.cache import cached
-from ...core.codegen import build
-from ...core.compiled import direction as direction_of
+from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
-from ...core.model import Model
+from ...core.formulas.codegen import build
+from ...core.numeric.cache import cached
+from ...core.numeric.compiled import direction as direction_of
 from ...core.record import Record
 
 if TYPE_CHECKING:
-    from ...core.characteristic import CharacteristicPolynomial, Part
+    from ...core.derivation.characteristic import CharacteristicPolynomial, Part
 
 
 @dataclass(frozen=True)
@@ -252,7 +252,7 @@ def _short_hash(text: str) -> str:
 
 
 def _derive(cls: type[Model], direction: int, values: Mapping[str, Any], kept: Mapping[str, Any]) -> dict[str, Any]:
-    from ...core.derive import symbolic
+    from ...core.derivation.derive import symbolic
     from .conditions import conditions
 
     system = symbolic(cls, direction)

@@ -15,10 +15,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.compiled import compiled, direction
+from ...core.contract.model import Model
+from ...core.contract.possible import allowed
 from ...core.errors import UcritError, near_match
-from ...core.model import Model
-from ...core.possible import allowed
+from ...core.numeric.compiled import compiled, direction
 from ...core.units import to_si
 from ..linear.modes import Mode, modes
 from ..results.convert import Series, Table, Tabular

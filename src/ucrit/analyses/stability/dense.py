@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.compiled import coefficients, compiled, direction
-from ...core.model import Model
+from ...core.contract.model import Model
+from ...core.numeric.compiled import coefficients, compiled, direction
 from ...numerics.assignment import assign
 from ..linear.modes import eigenvalues
 

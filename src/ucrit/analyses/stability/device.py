@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core import kernels
-from ...core.compiled import Compiled
+from ...core.numeric import kernels
+from ...core.numeric.compiled import Compiled
 from .grids import Grid, Tile, limits, segments
 
 Array = npt.NDArray[Any]

@@ -8,8 +8,8 @@ from fractions import Fraction
 from itertools import zip_longest
 from typing import Any
 
-from ...core.compiled import compiled, direction
-from ...core.model import Model
+from ...core.contract.model import Model
+from ...core.numeric.compiled import compiled, direction
 from ...numerics.determinants import hurwitz_polynomial
 from ...numerics.exact import interpolate
 from ...numerics.real_roots import real_roots

@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
 from .criteria import Criteria, criteria
 from .sensitivity import sensitivity
 

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.bounds import coefficient_bounds
-from ...core.compiled import Compiled, compiled, direction
-from ...core.model import Model
+from ...core.contract.model import Model
+from ...core.numeric.bounds import coefficient_bounds
+from ...core.numeric.compiled import Compiled, compiled, direction
 from ...numerics.rounded import slacks
 
 Array = npt.NDArray[Any]

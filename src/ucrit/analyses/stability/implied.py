@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from ...core.factor import definite_sign, factors, sign_of_power
+from ...core.formulas.factor import definite_sign, factors, sign_of_power
 
 if TYPE_CHECKING:
     from sympy.polys.rings import PolyElement

@@ -11,11 +11,11 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from ...core import kernels
-from ...core.bounds import coefficient_bounds
-from ...core.compiled import Compiled, compiled, deciding, direction, state_space
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
+from ...core.numeric import kernels
+from ...core.numeric.bounds import coefficient_bounds
+from ...core.numeric.compiled import Compiled, compiled, deciding, direction, state_space
 from ...numerics.matrices import eigenvalues_with_errors
 from ...numerics.rounded import judged
 from ...numerics.routh import all_decay

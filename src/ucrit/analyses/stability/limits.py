@@ -16,12 +16,12 @@ from typing import Any
 
 import numpy as np
 
-from ...core.cache import cached
-from ...core.codegen import build
-from ...core.compiled import direction as direction_of
+from ...core.contract.model import Model
+from ...core.derivation.limits import check_names, limit_polynomial
 from ...core.errors import UcritError
-from ...core.limits import check_names, limit_polynomial
-from ...core.model import Model
+from ...core.formulas.codegen import build
+from ...core.numeric.cache import cached
+from ...core.numeric.compiled import direction as direction_of
 from ...core.record import Record
 from .criteria import Boundary, Criteria, Criterion
 
@@ -206,9 +206,9 @@ def _criteria(cls: type[Model], facts: dict[str, Any] | None) -> Criteria | None
 
 
 def _derive(cls: type[Model], direction: int, to: dict[str, float]) -> dict[str, Any]:
-    from ...core import typeset
-    from ...core.codegen import generate
-    from ...core.derive import symbolic
+    from ...core.derivation.derive import symbolic
+    from ...core.formulas import typeset
+    from ...core.formulas.codegen import generate
     from ..linear.polynomials import in_s, product
 
     system = symbolic(cls, direction)

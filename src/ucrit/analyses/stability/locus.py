@@ -9,10 +9,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.declare import Parameter
+from ...core.contract.declare import Parameter
+from ...core.contract.model import Model
+from ...core.contract.possible import allowed
 from ...core.errors import UcritError
-from ...core.model import Model
-from ...core.possible import allowed
 from ...core.units import to_si
 from ...numerics.tracking import track_adaptive
 from ..linear.modes import eigensystem, eigenvalues, growth, modes

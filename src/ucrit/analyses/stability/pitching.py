@@ -13,12 +13,12 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.cache import cached
-from ...core.compiled import labels, state_space
+from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
 from ...core.html import Rich
-from ...core.model import Model
-from ...core.motion import motion
+from ...core.numeric.cache import cached
+from ...core.numeric.compiled import labels, state_space
+from ...core.numeric.motion import motion
 from ..results.convert import Series, Table, Tabular
 
 Array = npt.NDArray[Any]
@@ -252,10 +252,10 @@ def _derive(cls: type[Model], lift: str, moment: str, downward: str) -> str:
     from sympy import ZZ, Dummy
     from sympy.polys.rings import PolyRing
 
-    from ...core import typeset
-    from ...core.derive import symbolic
-    from ...core.factor import readable_ratio
-    from ...core.rings import integer_fraction, polynomial_field
+    from ...core.derivation.derive import symbolic
+    from ...core.derivation.rings import integer_fraction, polynomial_field
+    from ...core.formulas import typeset
+    from ...core.formulas.factor import readable_ratio
     from ..linear.steady import sign_inside
 
     system = symbolic(cls)

@@ -10,10 +10,10 @@ from typing import Any, Self
 import numpy as np
 import numpy.typing as npt
 
-from ...core.compiled import compiled, deciding_coefficients, direction
+from ...core.contract.model import Model
+from ...core.contract.possible import allowed
 from ...core.errors import UcritError
-from ...core.model import Model
-from ...core.possible import allowed
+from ...core.numeric.compiled import compiled, deciding_coefficients, direction
 from ...core.units import to_si
 from ...numerics.hurwitz import stable
 from ..results.convert import Series, Table, Tabular

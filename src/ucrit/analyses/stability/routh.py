@@ -146,7 +146,7 @@ def _read(text: str, variable: str, positive: Sequence[str]) -> list[Any]:
     """Return the ascending coefficients of a polynomial in words."""
     import sympy as sp
 
-    from ...core.expressions import FUNCTIONS, parse
+    from ...core.formulas.expressions import FUNCTIONS, parse
 
     text = re.sub("[⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda raised: "^" + unicodedata.normalize("NFKC", raised[0]), text)
     tokens = list(_tokens(text))
@@ -185,7 +185,7 @@ def _with_products(tokens: Sequence[tuple[str, str]]) -> str:
     >>> _with_products(list(_tokens("2 s^3 + (a b + 1)s")))
     '2*s**3+(a*b+1)*s'
     """
-    from ...core.expressions import FUNCTIONS
+    from ...core.formulas.expressions import FUNCTIONS
 
     pieces: list[str] = []
     last = ("sign", "")
@@ -229,8 +229,8 @@ def _conditions(a: Sequence[Any]) -> tuple[tuple[str, ...], bool | None, bool]:
     """Return what must be positive, whether signs settle that, and whether the polynomial may change its sign."""
     import sympy as sp
 
-    from ...core.characteristic import characteristic_polynomial
-    from ...core.factor import definite_sign
+    from ...core.derivation.characteristic import characteristic_polynomial
+    from ...core.formulas.factor import definite_sign
     from .conditions import conditions
 
     polynomial = characteristic_polynomial([sp.Matrix([[c]]) for c in a], "polynomial")

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.model import Model
-from ...core.possible import allowed
+from ...core.contract.model import Model
+from ...core.contract.possible import allowed
 from ..linear.modes import eigenvalues, growth, rigid_positions
 
 POINTS = 2001

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from ...core.compiled import compiled, direction, labels, state_slopes, state_space
-from ...core.model import Model
+from ...core.contract.model import Model
+from ...core.numeric.compiled import compiled, direction, labels, state_slopes, state_space
 from ..linear.modes import eigensystem, modes, rigid_positions
 from ..results.convert import Series, Table, Tabular, complex_series, unit_of
 from .critical import Critical, critical

@@ -9,11 +9,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from ...core.cache import cached
-from ...core.compiled import direction, labels, state_space
+from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
 from ...core.html import Rich
-from ...core.model import Model
+from ...core.numeric.cache import cached
+from ...core.numeric.compiled import direction, labels, state_space
 from .critical import critical
 from .verdict import verdict
 
@@ -140,10 +140,10 @@ def _derive(cls: type[Model], direction: int, name: str, turning: str) -> str:
     from sympy.polys.matrices import DomainMatrix
     from sympy.polys.rings import PolyRing
 
-    from ...core import typeset
-    from ...core.derive import symbolic
-    from ...core.factor import readable_ratio
-    from ...core.rings import integer_fraction, polynomial_field
+    from ...core.derivation.derive import symbolic
+    from ...core.derivation.rings import integer_fraction, polynomial_field
+    from ...core.formulas import typeset
+    from ...core.formulas.factor import readable_ratio
     from ..linear.steady import sign_inside
 
     system = symbolic(cls, direction)

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...core.cache import cached
-from ...core.model import Model
+from ...core.contract.model import Model
+from ...core.numeric.cache import cached
 
 
 def static_term(model: type[Model], direction: int = 1) -> str:
@@ -39,8 +39,8 @@ def static_term(model: type[Model], direction: int = 1) -> str:
 
 
 def _words(model: type[Model], direction: int) -> str:
-    from ...core.derive import symbolic
-    from ...core.factor import common_divisor, definite_sign
+    from ...core.derivation.derive import symbolic
+    from ...core.formulas.factor import common_divisor, definite_sign
 
     name = model.declaration.speed
     polynomial = symbolic(model, direction).polynomial

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from ...core.compiled import coefficients, compiled, direction
+from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.model import Model
+from ...core.numeric.compiled import coefficients, compiled, direction
 from ...core.record import Record
 from ...numerics.routh import routh
 

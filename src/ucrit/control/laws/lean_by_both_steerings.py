@@ -4,7 +4,7 @@ With rho = 0 the front alone steers; with rho = -1 both wheels steer by the same
 rho = -b/a the ground point below the centre of mass does not move sideways.
 """
 
-from ...core.declare import input, param
+from ...core.contract.declare import input, param
 from ..controller import Controller
 
 

@@ -1,6 +1,6 @@
 """Signs as in the lean model: lean and steer angles positive to the right. SI units and radians."""
 
-from ...core.declare import input, param
+from ...core.contract.declare import input, param
 from ..controller import Controller
 
 

@@ -4,7 +4,7 @@ G (T_1 s + 1)/(T_2 s + 1) times the error of the lean angle. The lean model with
 and the compensator three numbers: the three poles can be placed at will.
 """
 
-from ...core.declare import input, param, state
+from ...core.contract.declare import input, param, state
 from ..controller import Controller
 
 

@@ -1,6 +1,6 @@
 """Signs as in the lean model: lean and curvature positive to the right. SI units and radians."""
 
-from ...core.declare import input, param, speed
+from ...core.contract.declare import input, param, speed
 from ..controller import Controller
 
 

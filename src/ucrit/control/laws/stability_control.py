@@ -15,8 +15,8 @@ else helps, since the wheels that should brake more have no grip for it. Inside 
 vehicle's linear equations stay as they are.
 """
 
-from ...core.declare import input, output, param
-from ...core.functions import maximum, minimum, where
+from ...core.contract.declare import input, output, param
+from ...core.formulas.functions import maximum, minimum, where
 from ..controller import Controller
 
 

@@ -1,6 +1,6 @@
 """Signs as in the trailer with a steered axle. SI units and radians."""
 
-from ...core.declare import param
+from ...core.contract.declare import param
 from ..controller import Controller
 
 

@@ -4,8 +4,8 @@ The pressure follows what is demanded with a lag, less of it the further the whe
 beyond kappa_0 + band. Where no wheel is braked the law only adds the lags to the vehicle's linear equations.
 """
 
-from ...core.declare import input, output, param, state
-from ...core.functions import maximum, minimum
+from ...core.contract.declare import input, output, param, state
+from ...core.formulas.functions import maximum, minimum
 from ..controller import Controller
 
 WHEELS = ("fl", "fr", "rl", "rr")

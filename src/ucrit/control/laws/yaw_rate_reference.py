@@ -3,7 +3,7 @@
 The reference is the steady yaw rate of a neutral car, U delta_f/(a + b).
 """
 
-from ...core.declare import output, param, speed
+from ...core.contract.declare import output, param, speed
 from ..controller import Controller
 
 

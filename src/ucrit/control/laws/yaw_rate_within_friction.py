@@ -1,7 +1,7 @@
 """Signs as in the car models: yaw rate and steer angles positive to the right. SI units and radians."""
 
-from ...core.declare import output, param, state
-from ...core.functions import maximum, minimum
+from ...core.contract.declare import output, param, state
+from ...core.formulas.functions import maximum, minimum
 from ..controller import Controller
 
 

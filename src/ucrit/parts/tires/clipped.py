@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from ...core.declare import param
-from ...core.functions import atan2, sign, sin, where
+from ...core.contract.declare import param
+from ...core.formulas.functions import atan2, sign, sin, where
 from .tire import Forces, Tire
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from typing import Any
 
+from ...core.contract.part import Part
 from ...core.errors import UcritError, near_match
-from ...core.functions import atan
-from ...core.part import Part
+from ...core.formulas.functions import atan
 
 
 class Coefficients:

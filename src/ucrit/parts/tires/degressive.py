@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...core.declare import param
+from ...core.contract.declare import param
 from .load import degressive_coefficient
 from .slip import linear_side_force
 from .tire import Forces, Tire

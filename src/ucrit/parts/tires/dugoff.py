@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...core.declare import param
-from ...core.functions import length, maximum, tan, where
+from ...core.contract.declare import param
+from ...core.formulas.functions import length, maximum, tan, where
 from .slip import is_zero
 from .tire import Forces, Tire
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...core.functions import grouped
+from ...core.formulas.functions import grouped
 
 
 def degressive_coefficient(C_max: Any, F_max: Any, F_z: Any) -> Any:

@@ -35,9 +35,9 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import Any, ClassVar
 
-from ...core.declare import param
+from ...core.contract.declare import param
 from ...core.errors import UcritError
-from ...core.functions import atan, cos, exp, grouped, maximum, minimum, sign, sin, tan
+from ...core.formulas.functions import atan, cos, exp, grouped, maximum, minimum, sign, sin, tan
 from .coefficients import Coefficients, check_switches, curve
 from .magic_formula_moment import Slip, aligning_moment
 from .slip import is_zero

@@ -12,9 +12,9 @@ import math
 from collections.abc import Callable, Mapping
 from typing import Any, ClassVar
 
-from ...core.declare import param
+from ...core.contract.declare import param
 from ...core.errors import UcritError
-from ...core.functions import exp, grouped, length, sin, where
+from ...core.formulas.functions import exp, grouped, length, sin, where
 from .coefficients import Coefficients, check_switches, curve
 from .magic_formula_moment import pi
 from .slip import is_zero

@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
-from ...core.functions import atan, cos, minimum, sign, sqrt, tan, where
+from ...core.formulas.functions import atan, cos, minimum, sign, sqrt, tan, where
 from .coefficients import curve
 from .slip import is_zero
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from ...core.functions import atan
+from ...core.formulas.functions import atan
 
 
 def slip_angle(lateral: Any, longitudinal: Any) -> Any:

@@ -11,9 +11,9 @@ from __future__ import annotations
 
 from typing import Any, ClassVar, NamedTuple
 
+from ...core.contract.part import Part
 from ...core.errors import UcritError
 from ...core.made import made
-from ...core.part import Part
 
 
 class Forces(NamedTuple):

@@ -10,9 +10,9 @@ one of three ways (argument names choose what is passed; ``x`` values, ``dx`` an
 * ``matrices(self)`` returns linear ``(P_0, P_1, P_2)`` with ``P_0 q + P_1 q' + P_2 q'' = 0``.
 
 ``outputs(self, x, dx, ddx, u)`` returns a dictionary, ``basic_motion(self)`` one with the keys ``x``, ``dx`` and ``u``.
-``possible(self)`` says what values of several parameters may be together (see `ucrit.core.possible`).
-``events(self, x, dx, ddx, u)`` returns what shall be noticed along the motion (see `ucrit.core.events`),
-``drawing(self, x, u)`` what the vehicle looks like (see `ucrit.core.drawing`).
+``possible(self)`` says what values of several parameters may be together (see `ucrit.core.contract.possible`).
+``events(self, x, dx, ddx, u)`` returns what shall be noticed along the motion (see `ucrit.core.contract.events`),
+``drawing(self, x, u)`` what the vehicle looks like (see `ucrit.core.contract.drawing`).
 Any method named ``equations_<how>`` is a further derivation of the same vehicle, compared with the first; a bond graph,
 ``bond_graph(self, u)``, is one by `ucrit.bondgraph.equations_bond_graph`.
 """
@@ -27,9 +27,9 @@ from typing import Any, Self, dataclass_transform
 
 import numpy as np
 
+from ..errors import ModelError, UcritError, near_match
+from ..made import made, reference, resolve
 from .declare import Input, Output, Parameter, Quantity, Variable, param, speed
-from .errors import ModelError, UcritError, near_match
-from .made import made, reference, resolve
 from .part import Part, Slot
 from .possible import check_together
 from .tolerances import Tolerances
@@ -254,7 +254,7 @@ class Model:
         return f"{type(self).__name__}({values})"
 
     def _repr_html_(self) -> str:
-        from . import html
+        from .. import html
 
         declared = type(self).declaration.parameters.items()
         known = {t.name: str(t) for t in self.info.tolerances}

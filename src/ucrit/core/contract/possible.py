@@ -14,8 +14,8 @@ from typing import Any
 
 import numpy as np
 
+from ..errors import UcritError
 from .declare import Parameter
-from .errors import UcritError
 
 STEPS = 80
 WITHIN = 1e-7

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from .errors import ModelError, near_match
+from ..errors import ModelError, near_match
 
 WAYS = {"either": 0, "rising": 1, "falling": -1}
 

@@ -15,8 +15,8 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
-from .errors import UcritError, near_match
-from .model import Model
+from ..contract.model import Model
+from ..errors import UcritError, near_match
 
 if TYPE_CHECKING:
     from .characteristic import CharacteristicPolynomial

@@ -17,9 +17,9 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from ..errors import MissingExtraError, UcritError
 from .cache import folder
 from .compiled import Compiled
-from .errors import MissingExtraError, UcritError
 from .rows import NotAPolynomialError, Polynomial, Rows, conditions, polynomials
 
 ENGINES = ("auto", "numpy", "numba", "cuda")
@@ -171,7 +171,7 @@ def _indented(*lines: str, by: int = 4) -> list[str]:
 def needed(engine: str) -> Any:
     """Return the module of an engine, and refuse one that is unknown or not there."""
     if engine not in ENGINES:
-        from .errors import near_match
+        from ..errors import near_match
 
         raise UcritError(f"there is no engine '{engine}'{near_match(str(engine), ENGINES)}")
     try:

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import sympy as sp
 
-from .errors import ModelError
-from .units import Dimension
+from ..errors import ModelError
+from ..units import Dimension
 
 if TYPE_CHECKING:
     from .trace import Traced

@@ -7,7 +7,7 @@ from typing import Any
 
 import sympy as sp
 
-from .errors import ModelError
+from ..errors import ModelError
 from .trace import Traced
 
 

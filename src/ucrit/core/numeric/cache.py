@@ -17,11 +17,11 @@ from pathlib import Path
 from types import CodeType, FunctionType, ModuleType
 from typing import Any
 
-from .declare import Quantity
-from .model import Model
-from .part import Slot
+from ..contract.declare import Quantity
+from ..contract.model import Model
+from ..contract.part import Slot
 
-PACKAGE = Path(__file__).resolve().parent.parent
+PACKAGE = Path(__file__).resolve().parents[2]
 DERIVING = ("core", "numerics", "bondgraph", "analyses")
 _memory: dict[tuple[type[Model], str], Any] = {}
 

@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from .codegen import build
+from ..formulas.codegen import build
 from .compiled import Compiled
 
 EPS = float(np.finfo(float).eps)
@@ -38,7 +38,7 @@ def coefficient_bounds(functions: Compiled, arguments: Sequence[Any], *, whole: 
     Returns
     -------
     list, list
-        One entry for each coefficient that `ucrit.core.compiled.deciding_coefficients` returns.
+        One entry for each coefficient that `ucrit.core.numeric.compiled.deciding_coefficients` returns.
     """
     facts = functions.size_facts
     with np.errstate(all="ignore"):

@@ -15,11 +15,11 @@ from typing import Any
 import sympy as sp
 from sympy.polys.rings import PolyElement, PolyRing
 
-from .errors import ModelError
-from .factor import common_divisor
-from .minors import block_determinants
+from ..errors import ModelError
+from ..formulas.factor import common_divisor
+from ..formulas.minors import block_determinants
+from ..formulas.twins import Twins, untwinned
 from .rings import cleared_row, polynomial_field
-from .twins import Twins, untwinned
 
 Part = tuple[PolyElement, ...]
 

@@ -9,10 +9,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from ..contract.model import Model
+from ..formulas.codegen import build, build_for_points
 from .cache import cached
-from .codegen import build, build_for_points
 from .compiled import Arguments, Array, derive_facts
-from .model import Model
 
 SAME, MOST = 1e-13, 20
 """Relative change below which Newton's method has found what is implicit, and steps that it may take."""

@@ -10,7 +10,7 @@ from typing import Any
 
 import sympy as sp
 
-from .errors import UcritError, near_match
+from ..errors import UcritError, near_match
 from .functions import grouped, length
 from .plane import Share
 

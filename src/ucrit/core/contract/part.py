@@ -13,9 +13,9 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import Any, ClassVar, Self
 
+from ..errors import ModelError, UcritError, near_match
+from ..made import made, reference, resolve
 from .declare import Parameter
-from .errors import ModelError, UcritError, near_match
-from .made import made, reference, resolve
 
 Constant = float | int | str
 
@@ -74,7 +74,7 @@ class Part:
         return f"{type(self).__name__}({', '.join(f'{name}={value}' for name, value in self.__dict__.items())})"
 
     def _repr_html_(self) -> str:
-        from . import html
+        from .. import html
 
         rows = [
             (name, self.__dict__[name], "" if p.unit == "1" else p.unit, p.meaning)

@@ -1,6 +1,7 @@
 """Compiled functions of a model: state matrices, characteristic coefficients and motion for arrays of parameters.
 
-Nothing here imports SymPy unless a piece has never been derived before on this machine (see `ucrit.core.cache`).
+Nothing here imports SymPy unless a piece has never been derived before on this machine (see
+`ucrit.core.numeric.cache`).
 """
 
 from __future__ import annotations
@@ -13,10 +14,10 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from ..contract.model import Model
+from ..errors import UcritError
+from ..formulas.codegen import build
 from .cache import cached
-from .codegen import build
-from .errors import UcritError
-from .model import Model
 
 Array = npt.NDArray[Any]
 Arguments = Sequence[Any]
@@ -55,7 +56,7 @@ class Compiled:
 
     @cached_property
     def size_facts(self) -> Any:
-        """Sources of functions that bound the coefficients' sizes, and units of rounding; see `ucrit.core.bounds`."""
+        """Sources of functions that bound the coefficients' sizes, and rounding units: `ucrit.core.numeric.bounds`."""
         return cached(self.model, f"sizes{self.direction:+d}", lambda: derive_facts("size", self.model, self.direction))
 
     @property
@@ -189,7 +190,7 @@ class Compiled:
 
 def derive_facts(piece: str, *arguments: Any) -> Any:
     """Derive facts that are not cached yet; not imported before, because that imports SymPy."""
-    from . import derive
+    from ..derivation import derive
 
     return getattr(derive, f"{piece}_facts")(*arguments)
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from .errors import ModelError, near_match
+from ..errors import ModelError, near_match
 
 Array = npt.NDArray[Any]
 Point = tuple[Any, Any]

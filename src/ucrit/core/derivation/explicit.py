@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import sympy as sp
 from sympy.polys.matrices import DomainMatrix
 
-from .errors import ModelError
+from ..errors import ModelError
 from .rings import Row, polynomial_field
 
 if TYPE_CHECKING:

@@ -17,9 +17,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from ..errors import UcritError, near_match
+from ..units import to_si
 from .declare import Parameter
-from .errors import UcritError, near_match
-from .units import to_si
 
 ENTRIES = ("value", "sd", "min", "max")
 

@@ -13,9 +13,9 @@ import sympy as sp
 from sympy.polys.constructor import construct_domain
 from sympy.polys.rings import PolyElement, PolyRing
 
-from .declare import Parameter
-from .errors import ModelError
-from .grouped import Group
+from ..contract.declare import Parameter
+from ..errors import ModelError
+from ..formulas.grouped import Group
 
 MAX_TRIGSIMP = 400
 """Operations in expressions with sines and cosines above which those are not simplified: it would take minutes."""

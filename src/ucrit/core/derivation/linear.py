@@ -12,10 +12,10 @@ from typing import Any
 
 import sympy as sp
 
+from ..formulas.settle import settled
+from ..formulas.slopes import slopes_at
 from .characteristic import CharacteristicPolynomial, characteristic_polynomial
 from .explicit import Explicit, explicit
-from .settle import settled
-from .slopes import slopes_at
 from .trace import Traced, trace
 
 MAX_DIRECT = 1000

@@ -6,8 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from .errors import UcritError, near_match
-from .model import Model
+from ..contract.model import Model
+from ..errors import UcritError, near_match
 
 if TYPE_CHECKING:
     from .linear import LinearSystem
@@ -52,7 +52,7 @@ def cramer(system: LinearSystem, input: str, output: str) -> Rational:
     from sympy import ZZ, Dummy, S
     from sympy.polys.rings import PolyRing
 
-    from .minors import blocks, determinant, part
+    from ..formulas.minors import blocks, determinant, part
     from .rings import cleared_row, polynomial_field
 
     entries = _bordered(system, input, output)
@@ -101,7 +101,7 @@ def _bordered(system: LinearSystem, input: str, output: str) -> list[list[list[A
 
 def _lowest_terms(above: Any, below: Any, beside: Sequence[Any], functions: Mapping[Any, Any]) -> Rational:
     """Divide numerator and denominator by what they share; ``beside`` are factors of both that were left out."""
-    from .factor import common_divisor, definite_sign, factors
+    from ..formulas.factor import common_divisor, definite_sign, factors
 
     common = common_divisor(above, below) if above else below
     numerator, denominator = above.exquo(common), below.exquo(common)
@@ -126,7 +126,7 @@ def coefficients_in_s(polynomial: Any) -> list[Any]:
 
 def split_in_s(polynomial: Any) -> tuple[int, list[tuple[Sequence[Any], int]]]:
     """Return content and factors of a polynomial, each factor as its coefficients in s."""
-    from .factor import factors
+    from ..formulas.factor import factors
 
     content, found = factors(polynomial)
     return content, [(coefficients_in_s(f), m) for f, m in found]

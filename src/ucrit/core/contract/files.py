@@ -10,8 +10,8 @@
     m = 1400             # a number is in the parameter's SI unit
     U = "100 km/h"       # a text carries its own
 
-Tolerances stand beside values, see `ucrit.core.tolerances`. With ``graph``, a bond graph as text, ``model`` is a name
-for what it states.
+Tolerances stand beside values, see `ucrit.core.contract.tolerances`. With ``graph``, a bond graph as text, ``model`` is
+a name for what it states.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from collections.abc import Callable, Mapping, Set
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from .errors import UcritError, near_match
+from ..errors import UcritError, near_match
 from .model import Model
 from .part import Part
 from .tolerances import Tolerances, read_tolerances, write_correlations

@@ -7,13 +7,13 @@ from typing import Any
 
 import sympy as sp
 
-from .codegen import generate, renaming, write
-from .errors import UcritError
+from ..contract.model import Model
+from ..errors import UcritError
+from ..formulas.codegen import generate, renaming, write
+from ..formulas.plane import computable
+from ..formulas.slopes import staged_slopes
 from .linear import LinearSystem, linear_system
-from .model import Model
 from .nonlinear import constraints, solve_for_highest
-from .plane import computable
-from .slopes import staged_slopes
 from .trace import trace
 
 _symbolic: Any = cache(linear_system)
@@ -108,7 +108,7 @@ def motion_facts(model: type[Model]) -> dict[str, Any]:
 
 def motion_switch_facts(model: type[Model]) -> dict[str, Any]:
     """Derive the values whose sign changes are kinks of the equations of motion."""
-    from .switches import switches
+    from ..formulas.switches import switches
 
     traced = trace(model, direction=None)
     solved, moving = solve_for_highest(traced), {*traced.states, *traced.u}

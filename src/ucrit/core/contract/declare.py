@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from .errors import ModelError, UcritError
-from .units import Dimension, dimension, of_quantity, to_si
+from ..errors import ModelError, UcritError
+from ..units import Dimension, dimension, of_quantity, to_si
 
 
 @dataclass(frozen=True)

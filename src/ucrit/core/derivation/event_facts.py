@@ -7,11 +7,11 @@ from typing import Any
 
 import sympy as sp
 
-from .codegen import generate
+from ..contract.events import WAYS, Event
+from ..contract.model import Model, call
+from ..errors import ModelError, near_match
+from ..formulas.codegen import generate
 from .dimensions import check_sum
-from .errors import ModelError, near_match
-from .events import WAYS, Event
-from .model import Model, call
 from .trace import groups_of, symbolic_instance, trace
 
 

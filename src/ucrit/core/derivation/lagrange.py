@@ -6,8 +6,8 @@ from typing import Any
 
 import sympy as sp
 
-from .errors import ModelError
-from .model import Model, Names, call
+from ..contract.model import Model, Names, call
+from ..errors import ModelError
 
 
 def lagrange(

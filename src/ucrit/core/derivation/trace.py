@@ -9,11 +9,11 @@ from typing import Any
 
 import sympy as sp
 
-from .declare import Parameter
+from ..contract.declare import Parameter
+from ..contract.model import STATEMENTS, Model, Names, as_tuple, call
+from ..errors import ModelError
+from ..formulas.settle import settled
 from .dimensions import check_dimensions
-from .errors import ModelError
-from .model import STATEMENTS, Model, Names, as_tuple, call
-from .settle import settled
 
 Expr = Any
 

@@ -10,8 +10,8 @@ import ast
 import math
 from collections.abc import Sequence
 
+from ..errors import UcritError
 from .compiled import Compiled
-from .errors import UcritError
 
 MATH = {"arctan2": "atan2", "arctan": "atan", "arcsin": "asin", "arccos": "acos", "abs": "fabs"}
 """What NumPy's functions of one number are called in ``math``, where the name differs."""

@@ -1,0 +1,1 @@
+"""What follows from a declaration by algebra: traced equations, the linear object, polynomials, limits."""

@@ -1,0 +1,1 @@
+"""Symbolic formulas that know no model: functions, slopes, factors, determinants, code, typesetting."""
