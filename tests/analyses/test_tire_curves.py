@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import ucrit
-from ucrit import UcritError, cornering_coefficient, tire, tire_curves
+from ucrit import UcritError, cornering_coefficient, load, tire, tire_curves
 from ucrit.plots import plot_tire
 
 BRUSH = tire("brush", C=60_000, mu=0.8)
@@ -112,3 +112,20 @@ def test_the_drawing_has_the_curves():
     assert len(load.lines) == 4
     assert along.lines[0].get_ydata().max() == pytest.approx(curves.peak_braking[0][0, 0] / 2000, rel=1e-3)
     assert len(ucrit.plot(tire_curves(BRUSH, [4000], ROADS)).get_axes()[0].lines) == 2
+
+
+@pytest.mark.parametrize("wrong", [type(BRUSH), type("Odd", (), {"forces": 1})(), load("spinning-car")])
+def test_what_is_no_tire_is_refused(wrong):
+    with pytest.raises(UcritError, match="tire_curves needs a tire, as from"):
+        tire_curves(wrong)
+
+
+@pytest.mark.filterwarnings("error")
+def test_loads_at_which_a_law_gives_no_number_are_refused():
+    with pytest.raises(UcritError, match=r"the law gives no forces at a load of 1e\+09 N"):
+        tire_curves(tire("pacejka-205-60r15"), [4000, 1e9])
+
+
+def test_a_law_without_numbers_says_what_to_do():
+    with pytest.raises(UcritError, match=r"'magic-formula' is a law, .* name a .tir file or a tire that is shipped: .*pac"):
+        tire("magic-formula")

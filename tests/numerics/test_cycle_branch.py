@@ -10,8 +10,10 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from ucrit.numerics.collocation import Field
-from ucrit.numerics.cycle_branch import at_parameter, follow
+from ucrit.numerics.cycle_branch import follow, follow_both_ways, settled
+from ucrit.numerics.cycle_locate import at_parameter
 from ucrit.numerics.cycle_points import Hopf
+from ucrit.numerics.orbit import NODES, Orbit
 
 
 def rotating(growth, growth_slope, by_parameter, omega, shear=0.0):
@@ -182,3 +184,21 @@ def test_a_period_doubling_is_flagged_and_its_multiplier_is_that_of_the_variatio
     least = expected[np.argmin(np.abs(expected + 1))]
     assert least == pytest.approx(-1, abs=0.2)
     assert found.multipliers[0] == pytest.approx(least, rel=1e-5)
+
+
+def test_a_closed_branch_is_followed_round_from_any_of_its_cycles():
+    """``g = 1/4 - (r^2 - 1)^2 - p^2``: no equilibrium begins to oscillate, and the cycles are a closed curve."""
+    field = rotating(
+        lambda q, p: 0.25 - (q - 1) ** 2 - p**2, lambda q, p: -2 * (q - 1), lambda q, p: -2 * p + 0 * q, 3.0
+    )
+    mesh = np.linspace(0, 1, 21)
+    shares = mesh[:-1, None] + np.diff(mesh)[:, None] * NODES
+    wave = 1.2 * np.stack([np.cos(2 * np.pi * shares), np.sin(2 * np.pi * shares)], axis=-1)
+    first = settled(field, Orbit(mesh, wave, 2.0, 0.1), -1.0, 1.0)
+    branch, place = follow_both_ways(field, first, -1.0, 1.0)
+    assert (branch.begin, branch.end, place) == ("closed", "closed", 0)
+    assert branch.points[0].orbit.parameter == 0.1
+    for point in branch.points:
+        q, p = radius(point) ** 2, point.orbit.parameter
+        assert (q - 1) ** 2 + p**2 == pytest.approx(0.25, abs=1e-6)
+    assert sorted(p.orbit.parameter for p in branch.folds) == pytest.approx([-0.5, 0.5], abs=1e-7)

@@ -8,7 +8,8 @@ from scipy.linalg import expm
 from scipy.optimize import brentq
 
 from ucrit.numerics.collocation import Field, SlidingError
-from ucrit.numerics.cycle_branch import at_parameter, follow
+from ucrit.numerics.cycle_branch import follow
+from ucrit.numerics.cycle_locate import at_parameter
 from ucrit.numerics.cycle_points import Hopf
 from ucrit.numerics.kinks import settle
 from ucrit.numerics.orbit import NODES, Metric, Orbit, Tangent, multipliers

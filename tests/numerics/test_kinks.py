@@ -5,7 +5,8 @@ import numpy as np
 import pytest
 
 from ucrit.numerics.collocation import Field
-from ucrit.numerics.cycle_branch import at_parameter, follow
+from ucrit.numerics.cycle_branch import follow
+from ucrit.numerics.cycle_locate import at_parameter
 from ucrit.numerics.cycle_points import Hopf
 from ucrit.numerics.kinks import kinks, snapped
 from ucrit.numerics.orbit import adapted_mesh

@@ -12,6 +12,9 @@ from ..core.contract.part import Part
 from ..core.errors import UcritError, near_match
 from .places import TIRES
 
+FEW = 3
+"""Parameters of a law that are named where all are missing."""
+
 
 def part_names(kind: type[Part]) -> tuple[str, ...]:
     """Names of all laws in the catalogue that are of a kind."""
@@ -101,7 +104,13 @@ def tire(name: str, **parameters: Any) -> Any:
     >>> round(float(tire("brush", C="1 kN/deg", mu=0.3).side_force(4000, 0.05)), 1)
     -1189.9
     """
-    if not isinstance(name, str):
-        raise UcritError(f"a tire is told by its name or file, got {type(name).__name__}")
     kind: type[Part] = importlib.import_module("ucrit.parts.tires").Tire
-    return find_part(name, kind)(**parameters)
+    law = find_part(name, kind)
+    asked = [key for key, parameter in law.parameters.items() if parameter.default is None]
+    if asked and not parameters:
+        first = ", ".join(asked[:FEW]) + (f" and {len(asked) - FEW} more" if len(asked) > FEW else "")
+        raise UcritError(
+            f"'{name}' is a law, which needs a tire's numbers ({first}): give them, or name a .tir file or a tire that "
+            f"is shipped: {', '.join(tire_names())}"
+        )
+    return law(**parameters)

@@ -68,6 +68,8 @@ def _same(one: Any, other: Any) -> bool:
         return one.keys() == other.keys() and all(_same(one[key], other[key]) for key in one)
     if isinstance(one, tuple | list) and isinstance(other, tuple | list):
         return len(one) == len(other) and all(map(_same, one, other))
+    if dataclasses.is_dataclass(one) and type(one) is type(other) and not isinstance(one, type):
+        return bool(_equal(one, other))
     return bool(one == other or (one != one and other != other))
 
 

@@ -1,4 +1,6 @@
-"""Branches of periodic solutions, followed from a Hopf point through folds by pseudo-arclength continuation.
+"""Branches of periodic solutions, followed through folds by pseudo-arclength continuation.
+
+They begin at a Hopf point, or at a periodic solution that is known, from which they are followed both ways.
 
 H. B. Keller, Numerical solution of bifurcation and nonlinear eigenvalue problems (1977); every size is measured against
 the present cycle's own, so that a branch is followed by shares whatever the units.
@@ -13,9 +15,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from . import collocation as co
 from . import orbit as orbits
 from .collocation import Corrected, Field, SlidingError
+from .cycle_locate import at_parameter, kept, locate, metric_of, point_of
 from .cycle_points import Branch, Hopf, Point
 from .kinks import clear, kinks, settle
 from .orbit import Metric, Orbit, Tangent, norm
@@ -27,7 +29,6 @@ STEP, SMALLEST_STEP = 0.15, 1e-6
 TURN, CORNER = 0.9, 1e-3
 """Least cosine between the directions at two neighbouring points, and the step below which it may be anything."""
 
-SHARE_OF_RANGE = 0.1
 BENT = 1e-3
 """Share of the linear rates that the rest of the rates has on the first cycle."""
 
@@ -37,25 +38,11 @@ CLOSED = 0.3
 ENDLESS, STANDING = 30.0, 1e-6
 """Growth of cycles during which the parameter has moved by less than this share of its range: a branch without end."""
 
-ROOT_STEPS = 40
+VANISHED = 0.01
+"""The same share where the branch was begun at a cycle of any size."""
 
-
-def sizes(orbit: Orbit) -> Array:
-    """Return half the range of each state; a state that rests is given the largest of the others."""
-    dense = orbit.dense()
-    half = 0.5 * (dense.max(axis=1) - dense.min(axis=1))
-    return np.asarray(np.where(half > 1e-12 * half.max(), half, half.max() or 1.0))
-
-
-def _metric(orbit: Orbit, span: float) -> Metric:
-    return Metric(sizes(orbit), orbit.period, SHARE_OF_RANGE * span)
-
-
-def _point(field: Field, found: Corrected, metric: Metric, fold: bool = False) -> Point:
-    x, p = found.orbit.values[0, :1], found.orbit.parameter
-    multipliers, trivial = orbits.multipliers(found.monodromy, field.rates(x.T, p)[:, 0], metric.states)
-    error = co.error(field, found.orbit, metric.states)
-    return Point(found.orbit, found.tangent, metric, multipliers, trivial, error, fold)
+AGAIN, AWAY = 0.6, 2.0
+"""A branch that has been this many steps away from its first cycle, and is back within a share of one, is closed."""
 
 
 def follow(
@@ -93,36 +80,116 @@ def follow(
     Branch or None
         ``None`` where no periodic solution is found next to the Hopf point.
     """
-    here = _first(field, hopf, upper - lower)
-    if here is None:
+    first = _first(field, hopf, upper - lower)
+    if first is None:
         return None
-    points, step, small = [here], STEP, CLOSED * here.metric.states
+    points, end = _followed(field, first, (lower, upper), CLOSED, tolerance, count, beyond, progress)
+    return Branch(tuple(points), end)
+
+
+def settled(field: Field, guess: Orbit, lower: float, upper: float) -> Point | None:
+    """Return the periodic solution next to a guess, at the guess's value of the parameter.
+
+    ``None`` where Newton's method finds none; raises `SlidingError` where the motion would slide along a jump.
+    """
+    still = Tangent(0 * guess.values, 0.0, 1.0, 0 * guess.mesh)
+    guess, still = clear(field, guess, still)
+    found = settle(field, guess, still, metric_of(guess, upper - lower))
+    return None if found is None else point_of(field, found, metric_of(found.orbit, upper - lower))
+
+
+def follow_both_ways(
+    field: Field,
+    start: Point,
+    lower: float,
+    upper: float,
+    *,
+    tolerance: float = 1e-6,
+    count: int = 400,
+    beyond: Callable[[Orbit], bool] | None = None,
+    progress: Callable[[int, int], None] | None = None,
+) -> tuple[Branch, int]:
+    """Follow the branch of a periodic solution in both directions, and tell where on it that solution is.
+
+    Arguments are those of `follow`; ``start`` is as from `settled`.
+    """
+    half = (count + 1) // 2
+    sides: list[tuple[list[Point], str]] = []
+    for sense in (-1.0, 1.0):
+
+        def advance(done: int, most: int, before: int = half * len(sides)) -> None:
+            if progress is not None:
+                progress(before + done, count)
+
+        first = replace(start, tangent=orbits.scaled(start.tangent, sense))
+        sides.append(_followed(field, first, (lower, upper), VANISHED, tolerance, half, beyond, advance))
+        if sides[-1][1] == "closed":
+            return Branch((_again(field, sides[-1][0][0], start), *sides[-1][0][1:]), "closed", "closed"), 0
+    (behind, begin), (ahead, end) = sides
+    return Branch((*behind[:0:-1], _again(field, ahead[0], start), *ahead[1:]), end, begin), len(behind) - 1
+
+
+def _again(field: Field, refined: Point, start: Point) -> Point:
+    """Return a point that is known better than at the start, at the start's value of the parameter."""
+    found = kept(field, refined, start.orbit.parameter)
+    return refined if found is None else replace(found, tangent=refined.tangent)
+
+
+def _followed(
+    field: Field,
+    first: Point,
+    within: tuple[float, float],
+    vanished: float,
+    tolerance: float,
+    count: int,
+    beyond: Callable[[Orbit], bool] | None,
+    progress: Callable[[int, int], None] | None,
+) -> tuple[list[Point], str]:
+    """Return the points of a branch from one of them on, in the direction of its tangent, and why they end."""
+    (lower, upper), away = within, 0.0
+    points, step, small = [first], STEP, vanished * first.metric.states
     while len(points) < count:
         here = _refined(field, points[-1], tolerance, len(points))
         points[-1] = here
         found, step, steps = _advance(field, here, step)
         if found is None:
-            return Branch(tuple(points), "slides" if steps else "stuck")
-        new = _point(field, found, _metric(found.orbit, upper - lower))
+            return points, "slides" if steps else "stuck"
+        new = point_of(field, found, metric_of(found.orbit, upper - lower))
         if here.tangent.parameter * new.tangent.parameter < 0:
             turn = locate(field, here, new, lambda found: found.tangent.parameter)
             points += [turn] if turn else []
         if beyond is not None and beyond(new.orbit):
-            return Branch(tuple(points), "large")
+            return points, "large"
         points.append(new)
         parameter = new.orbit.parameter
         if not lower <= parameter <= upper:
             edge = at_parameter(field, points[-2], new, lower if parameter < lower else upper)
             points[-1:] = [edge] if edge else []
-            return Branch(tuple(points), "range")
+            return points, "range"
         if np.all(new.metric.states < small):
-            return Branch(tuple(points), "equilibrium")
+            return points, "equilibrium"
+        apart = _apart(first, new)
+        if away > AWAY * STEP and apart < AGAIN * STEP and _same_way(first, new):
+            return points, "closed"
+        away = max(away, apart)
         if _endless(points, upper - lower):
-            return Branch(tuple(points), "endless")
+            return points, "endless"
         step = min(STEP, step * (1.4 if steps <= 4 else 1.0 if steps <= 7 else 0.7))
         if progress is not None:
             progress(len(points), count)
-    return Branch(tuple(points), "count")
+    return points, "count"
+
+
+def _apart(one: Point, other: Point) -> float:
+    """Return how far two points of a branch are from each other, in the sizes of the first."""
+    metric = one.metric
+    sizes_ = np.abs(other.metric.states - metric.states) / metric.states
+    period = abs(other.orbit.period - one.orbit.period) / metric.period
+    return float(max(sizes_.max(), period, abs(other.orbit.parameter - one.orbit.parameter) / metric.parameter))
+
+
+def _same_way(one: Point, other: Point) -> bool:
+    return one.tangent.parameter * other.tangent.parameter > 0
 
 
 def _endless(points: list[Point], span: float) -> bool:
@@ -149,11 +216,11 @@ def _first(field: Field, hopf: Hopf, span: float) -> Point | None:
         away = Tangent(scale * wave, 0.0, 0.0, 0 * mesh)
         guess, away = clear(field, orbits.moved(rest, away, 1.0), away)
         try:
-            found = settle(field, guess, away, _metric(guess, span))
+            found = settle(field, guess, away, metric_of(guess, span))
         except SlidingError:
             continue
         if found is not None and abs(found.orbit.period / rest.period - 1) < 0.2:
-            return _point(field, found, _metric(found.orbit, span))
+            return point_of(field, found, metric_of(found.orbit, span))
     return None
 
 
@@ -191,7 +258,7 @@ def _refined(field: Field, point: Point, tolerance: float, number: int) -> Point
             return point
         if found is None:
             return point
-        better = _point(field, found, point.metric, point.fold)
+        better = point_of(field, found, point.metric, point.fold)
         gain = point.error / max(better.error, 1e-300)
         point = better
         if better.error <= tolerance or (count == MOST_INTERVALS and gain < 1.5):
@@ -245,63 +312,3 @@ def _cosine(found: Corrected, orbit: Orbit, ahead: Tangent, metric: Metric) -> f
     product = orbits.inner(a.values, b.values, widths, metric)
     product += a.period * b.period / metric.period**2 + a.parameter * b.parameter / metric.parameter**2
     return product / norm(a, widths, metric) / norm(b, widths, metric)
-
-
-def between(field: Field, a: Point, b: Point, share: float) -> Corrected | None:
-    """Return the solution at a share of the way from one point of a branch to its neighbour."""
-    other = b.orbit.on(a.orbit.mesh, a.orbit.phase)
-    period, parameter = other.period - a.orbit.period, other.parameter - a.orbit.parameter
-    chord = Tangent(other.values - a.orbit.values, period, parameter, 0 * a.orbit.mesh)
-    try:
-        return settle(field, orbits.moved(a.orbit, chord, share), chord, a.metric)
-    except SlidingError:
-        return None
-
-
-def locate(field: Field, a: Point, b: Point, miss: Callable[[Corrected], float]) -> Point | None:
-    """Return the point between two neighbours where a function of the solution changes sign, by the Illinois method."""
-    ends = between(field, a, b, 0.0), between(field, a, b, 1.0)
-    if ends[0] is None or ends[1] is None:
-        return None
-    low, high, f_low, f_high = 0.0, 1.0, miss(ends[0]), miss(ends[1])
-    best, size = (ends[0], abs(f_low)) if abs(f_low) < abs(f_high) else (ends[1], abs(f_high))
-    if f_low * f_high > 0:
-        return None
-    for _ in range(ROOT_STEPS):
-        share = (low * f_high - high * f_low) / (f_high - f_low) if f_high != f_low else 0.5 * (low + high)
-        found = between(field, a, b, share)
-        if found is None:
-            break
-        value = miss(found)
-        if abs(value) < size:
-            best, size = found, abs(value)
-        if value == 0 or high - low < 1e-12 or size < 1e-13:
-            break
-        if value * f_high < 0:
-            low, f_low = high, f_high
-        else:
-            f_low /= 2
-        high, f_high = share, value
-    return _point(field, best, a.metric, fold=True)
-
-
-def at_parameter(field: Field, a: Point, b: Point, value: float) -> Point | None:
-    """Return the periodic solution at a value of the parameter between those of two neighbours."""
-    near = locate(field, a, b, lambda found: found.orbit.parameter - value)
-    if near is None:  # a corner between them: the solution is like that of one of them
-        return next((found for found in (_kept(field, b, value), _kept(field, a, value)) if found), None)
-    found = _kept(field, near, value)
-    if found is None or abs(found.orbit.period / near.orbit.period - 1) > 1e-6:
-        return replace(near, fold=False)
-    return replace(found, tangent=near.tangent)
-
-
-def _kept(field: Field, near: Point, value: float) -> Point | None:
-    """Return the periodic solution at a value of the parameter that is found from a point beside it."""
-    guess = replace(near.orbit, parameter=value)
-    only = Tangent(np.zeros_like(guess.values), 0.0, 1.0, 0 * guess.mesh)
-    try:
-        found = settle(field, guess, only, near.metric)
-    except SlidingError:
-        return None
-    return None if found is None else _point(field, found, near.metric)

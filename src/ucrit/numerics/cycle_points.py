@@ -72,13 +72,15 @@ class Point:
 
 @dataclass(frozen=True)
 class Branch:
-    """Periodic solutions in the order in which they were found, and why the last one is the last.
+    """Periodic solutions in the order of their branch, and why the last one is the last.
 
-    ``end`` is ``"range"``, ``"equilibrium"``, ``"large"``, ``"endless"``, ``"slides"``, ``"stuck"`` or ``"count"``.
+    ``end`` is ``"range"``, ``"equilibrium"``, ``"closed"``, ``"large"``, ``"endless"``, ``"slides"``, ``"stuck"`` or
+    ``"count"``; ``begin`` is one of them too, or empty where the branch begins at a Hopf point.
     """
 
     points: tuple[Point, ...]
     end: str
+    begin: str = ""
 
     @property
     def folds(self) -> tuple[Point, ...]:

@@ -98,7 +98,7 @@ def shown(unit: str, largest: float) -> tuple[float, str]:
 def window(found: LimitCycles) -> tuple[float, float]:
     """Return the values of the parameter between which the branches are drawn."""
     values = np.concatenate([branch.values for branch in found.branches])
-    ends = np.array([values.min(), values.max(), *(b.critical.value for b in found.branches)])
+    ends = np.array([values.min(), values.max(), *(b.critical.value for b in found.branches if b.critical)])
     margin = 0.15 * (ends.max() - ends.min()) or 0.1 * abs(ends[0])
     return max(found.lower, float(ends.min() - 1.5 * margin)), min(found.upper, float(ends.max() + margin))
 
@@ -113,11 +113,12 @@ def straight(found: LimitCycles, left: float, right: float) -> Iterator[tuple[fl
 
 def pieces(branch: CycleBranch, size: Array) -> Iterator[tuple[Array, Array, bool]]:
     """Yield the parts of a branch that are stable throughout or unstable throughout: values, sizes, which it is."""
-    x = np.concatenate([[branch.critical.value], branch.values])
-    y = np.concatenate([[0.0], size])
-    stable, fold = branch.stable.copy(), np.array([cycle.fold for cycle in branch.cycles])
-    kind = np.concatenate([stable[:1], stable])
-    for i in (np.flatnonzero(fold) + 1).tolist():  # a fold belongs to what comes before it, and ends it
+    x, y, kind = branch.values, size, branch.stable.copy()
+    fold = np.array([cycle.fold for cycle in branch.cycles])
+    if branch.critical is not None:
+        x, y, kind = np.append(branch.critical.value, x), np.append(0.0, y), np.append(kind[:1], kind)
+        fold = np.append(False, fold)
+    for i in np.flatnonzero(fold[1:]) + 1:  # a fold belongs to what comes before it, and ends it
         kind[i] = kind[i - 1]
     start = 0
     for i in range(1, len(x)):
@@ -129,18 +130,19 @@ def pieces(branch: CycleBranch, size: Array) -> Iterator[tuple[Array, Array, boo
 
 def _marks(axes: Any, branch: CycleBranch, size: Array, window: tuple[float, float]) -> None:
     ring = {"marker": "o", "markerfacecolor": style.PAPER, "markeredgecolor": style.INK, "markersize": 6.5}
-    at = branch.critical.value
-    axes.plot([at], [0], linestyle="none", markeredgewidth=1.4, zorder=5, clip_on=False, **ring)
     unit = branch.unit
-    side = -1 if at > 0.5 * sum(window) else 1
-    style.label(
-        axes,
-        labels.quantity(at, unit),
-        (at, 0),
-        xytext=(side * 6, 7),
-        textcoords="offset points",
-        ha="left" if side > 0 else "right",
-    )
+    if branch.critical is not None:
+        at = branch.critical.value
+        axes.plot([at], [0], linestyle="none", markeredgewidth=1.4, zorder=5, clip_on=False, **ring)
+        side = -1 if at > 0.5 * sum(window) else 1
+        style.label(
+            axes,
+            labels.quantity(at, unit),
+            (at, 0),
+            xytext=(side * 6, 7),
+            textcoords="offset points",
+            ha="left" if side > 0 else "right",
+        )
     top = size.max()
     for cycle, height in zip(branch.cycles, size, strict=True):
         if cycle.fold:
@@ -166,7 +168,8 @@ def _legend(axes: Any, found: LimitCycles) -> None:
     if unstable:
         items.append((Line2D([], [], color=style.colour(0), linewidth=1.9, linestyle=UNSTABLE_DASH), "unstable one"))
     items.append((Line2D([], [], color=style.INK, linewidth=1.9), "straight running"))
-    items.append((Line2D([], [], linestyle="none", **ring), "critical value"))
+    if any(branch.critical is not None for branch in found.branches):
+        items.append((Line2D([], [], linestyle="none", **ring), "critical value"))
     if any(branch.folds for branch in found.branches):
         items.append((Line2D([], [], linestyle="none", marker="D", color=style.INK, markersize=4.6), "fold"))
     lines, texts = zip(*items, strict=True)

@@ -17,6 +17,7 @@ from ...core.errors import UcritError, near_match
 from ...core.formulas.codegen import build
 from ...core.numeric.cache import cached
 from ...core.numeric.compiled import direction as direction_of
+from ...core.record import Record
 from .handover import HandOver
 
 Array = npt.NDArray[Any]
@@ -26,7 +27,7 @@ SAME = 1e-9
 
 
 @dataclass(frozen=True)
-class TransferFunction(HandOver):
+class TransferFunction(HandOver, Record):
     """Transfer function from one input to one output.
 
     Attributes

@@ -14,8 +14,9 @@ from ...core.errors import UcritError, near_match
 from ...core.html import Rich
 from ...core.numeric.motion import motion
 from .cycle import Cycle
+from .cycle_field import field_of
 from .cycle_words import amplitude_text, value_text
-from .cycles import LimitCycles, field_of, limit_cycles
+from .cycles import LimitCycles, limit_cycles
 
 Array = npt.NDArray[Any]
 

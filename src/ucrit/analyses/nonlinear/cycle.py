@@ -12,12 +12,12 @@ import numpy.typing as npt
 from ...core.contract.model import Model
 from ...core.numeric.motion import motion
 from ...core.units import to_si
-from ...numerics.collocation import Field
-from ...numerics.cycle_branch import at_parameter
-from ...numerics.cycle_points import Branch, Point
+from ...numerics.cycle_locate import at_parameter
+from ...numerics.cycle_points import ROUNDING, Branch, Point
 from ...numerics.orbit import Orbit
 from ..results.convert import Series, Table, Tabular
 from ..stability.critical import Critical
+from .cycle_field import field_of
 
 Array = npt.NDArray[Any]
 
@@ -71,6 +71,15 @@ class Cycle(Tabular):
         """Frequency [Hz]."""
         return 1 / self.period
 
+    @property
+    def growth(self) -> float:
+        """Share by which the deviation from the cycle that lasts longest grows in a period, below 0 if it shrinks.
+
+        0 where the multipliers' error leaves the sign open.
+        """
+        share = float(np.abs(self.multipliers).max(initial=0.0)) - 1
+        return share if abs(share) > 10 * self.accuracy + ROUNDING else 0.0
+
     def states(self, times: Array) -> Array:
         """Return the states at times [s], shape (states, times); the cycle goes on for ever."""
         return self._orbit.at(np.mod(np.asarray(times, dtype=float) / self.period, 1.0))
@@ -112,32 +121,37 @@ def of_point(vehicle: Model, parameter: str, point: Point) -> Cycle:
 
 @dataclass(frozen=True)
 class CycleBranch(Tabular):
-    """The limit cycles that leave one critical value of flutter, in the order of their branch.
+    """Limit cycles in the order of their branch: those that leave a critical value, or that a motion came to.
 
     Attributes
     ----------
     vehicle, critical
-        The vehicle, and where straight running begins to oscillate.
+        The vehicle, and where straight running begins to oscillate; ``None`` for a branch begun from a motion.
     parameter, unit, states
         What is varied, its unit, and the names of the states.
     cycles
-        The limit cycles, from the smallest one next to the critical value.
+        The limit cycles, from the smallest one next to the critical value; of a branch begun from a motion, from one
+        end to the other.
     end
         Why the branch is followed no further: ``"range"`` (the parameter's), ``"equilibrium"`` (it ends in another
-        critical value), ``"large"`` (angles pass 90 degrees), ``"endless"`` (ever larger cycles at one value),
-        ``"slides"`` (the motion would slide along a jump of a law), ``"stuck"`` (no neighbour was found) or
-        ``"count"``.
+        critical value), ``"closed"`` (it comes back to its first cycle), ``"large"`` (angles pass 90 degrees),
+        ``"endless"`` (ever larger cycles at one value), ``"slides"`` (the motion would slide along a jump of a law),
+        ``"stuck"`` (no neighbour was found) or ``"count"``.
+    begin, start
+        For a branch begun from a motion: why it is followed no further the other way, and the cycle that the motion
+        came to. Else ``"critical"`` and ``None``.
     """
 
     vehicle: Model
-    critical: Critical
+    critical: Critical | None
     parameter: str
     unit: str
     states: tuple[str, ...]
     cycles: tuple[Cycle, ...]
     end: str
     _points: tuple[Point, ...] = field(repr=False)
-    _field: Field = field(repr=False)
+    begin: str = "critical"
+    start: Cycle | None = None
 
     @property
     def values(self) -> Array:
@@ -163,8 +177,11 @@ class CycleBranch(Tabular):
     def kind(self) -> str:
         """``"supercritical"``: small stable cycles on the unstable side of the critical value; else ``"subcritical"``.
 
-        ``"vertical"`` where the first cycles are at the critical value itself.
+        ``"vertical"`` where the first cycles are at the critical value itself; ``"from a motion"`` for a branch that
+        was begun so.
         """
+        if self.critical is None:
+            return "from a motion"
         value = self.critical.value
         turned = self.cycles[0].value - value
         if abs(turned) <= NEAR * abs(value):
@@ -173,10 +190,15 @@ class CycleBranch(Tabular):
 
     @property
     def onset(self) -> Cycle | None:
-        """The stable cycle furthest into the range where straight running is stable too; ``None`` if there is none."""
-        below = self.critical.stable == "below"
-        found = [c for c in self.cycles if c.stable and (c.value < self.critical.value) == below]
-        found += [c for c in self.folds if (c.value < self.critical.value) == below]
+        """The stable cycle furthest into the range where straight running is stable too; ``None`` if there is none.
+
+        It is sought on branches that leave a critical value.
+        """
+        if self.critical is None:
+            return None
+        below, value = self.critical.stable == "below", self.critical.value
+        found = [c for c in self.cycles if c.stable and (c.value < value) == below]
+        found += [c for c in self.folds if (c.value < value) == below]
         return (min if below else max)(found, key=lambda c: c.value) if found else None
 
     @property
@@ -187,12 +209,14 @@ class CycleBranch(Tabular):
     def at(self, value: float | str) -> tuple[Cycle, ...]:
         """Return the cycles at a value of the parameter [SI, or text with a unit], in the order of the branch."""
         wanted = to_si(value, self.unit, self.parameter)
-        found = []
+        moving, found = field_of(self.vehicle, self.parameter), []
         for p, q in zip(self._points, self._points[1:], strict=False):
             low, high = sorted((p.orbit.parameter, q.orbit.parameter))
             if low <= wanted <= high and wanted != p.orbit.parameter:
-                point = q if wanted == q.orbit.parameter else at_parameter(self._field, p, q, wanted)
+                point = q if wanted == q.orbit.parameter else at_parameter(moving, p, q, wanted)
                 found += [of_point(self.vehicle, self.parameter, point)] if point else []
+        if self._points and self._points[0].orbit.parameter == wanted:
+            found.insert(0, of_point(self.vehicle, self.parameter, self._points[0]))
         return tuple(found)
 
     def table(self) -> Table:

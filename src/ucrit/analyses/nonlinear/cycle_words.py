@@ -23,12 +23,24 @@ EVENTS = {
 ENDS = {
     "range": "",
     "equilibrium": "the branch ends in another critical value",
+    "closed": "the branch comes back to where it began",
     "large": "the branch is not followed to angles beyond 90 degrees",
     "endless": "the branch goes on to ever larger cycles at the same value",
     "slides": "the branch is not followed further: the motion would slide along a jump of a law",
     "stuck": "the branch cannot be followed further",
     "count": "the branch is not followed further",
 }
+
+EDGES = {
+    "range": "the end of the range",
+    "equilibrium": "where the cycles shrink to nothing",
+    "large": "angles pass 90 degrees beyond",
+    "endless": "ever larger cycles at the same value",
+    "slides": "the motion would slide along a jump of a law beyond",
+    "stuck": "where it cannot be followed further",
+    "count": "where it is followed no further",
+}
+"""Ends of a branch that was begun from a motion."""
 
 
 def describe(found: LimitCycles, say: Callable[[float], str] = speed_text) -> tuple[str, ...]:
@@ -73,6 +85,8 @@ def leading_state(branch: CycleBranch) -> tuple[str, str]:
 
 def _branch(branch: CycleBranch, say: Callable[[float], str]) -> list[str]:
     event = branch.critical
+    if event is None:
+        return _from_motion(branch, say)
     subject = event.mode.rpartition(" ")[0]
     side = "below" if (event.stable == "below") == (event.value > 0) else "above"
     said = [
@@ -86,10 +100,38 @@ def _branch(branch: CycleBranch, say: Callable[[float], str]) -> list[str]:
     said += [f"Near {value_text(branch, at, say)} {EVENTS[what]}." for what, at in branch.events]
     if ENDS[branch.end]:
         said += [f"{ENDS[branch.end][0].upper()}{ENDS[branch.end][1:]} ({value_text(branch, branch.values[-1], say)})."]
+    return said + _accuracy(branch)
+
+
+def _from_motion(branch: CycleBranch, say: Callable[[float], str]) -> list[str]:
+    """Tell a branch that was begun from a motion: its first cycle, how far it goes, where its cycles are stable."""
+    start, declared = branch.start, type(branch.vehicle).declaration.variables
+    assert start is not None
+    name, _ = leading_state(branch)
+    size = amplitude_text(start.amplitude[name], declared[name.rstrip("'")].state_unit(name.count("'")))
+    said = [
+        f"At {value_text(branch, start.value, say)} the simulated motion comes to a limit cycle with an amplitude of "
+        f"{name} of {size} at {start.frequency_hz:.3g} Hz."
+    ]
+    sides = (branch.begin, branch.values[0]), (branch.end, branch.values[-1])
+    if branch.end == "closed":
+        said += ["Its branch is closed: it comes back to this cycle."]
+    else:
+        (why, one), (reason, other) = sorted(sides, key=lambda side: side[1])
+        first, last = value_text(branch, one, say), value_text(branch, other, say)
+        said += [f"Its branch ends at {first} ({EDGES[why]}) and at {last} ({EDGES[reason]})."]
+    if branch.stable.any():
+        held = [c.value for c in branch.cycles if c.stable or c.fold]
+        low, high = value_text(branch, min(held), say), value_text(branch, max(held), say)
+        said += [f"Stable limit cycles are found from {low} to {high}."]
+    said += [f"Two cycles meet and vanish at {value_text(branch, c.value, say)}." for c in branch.folds]
+    said += [f"Near {value_text(branch, at, say)} {EVENTS[what]}." for what, at in branch.events]
+    return said + _accuracy(branch)
+
+
+def _accuracy(branch: CycleBranch) -> list[str]:
     worst = max(cycle.error for cycle in branch.cycles)
-    if worst > 1e-3:
-        said += [f"The states of the least accurate cycle are off by about {worst:.1%}."]
-    return said
+    return [f"The states of the least accurate cycle are off by about {worst:.1%}."] if worst > 1e-3 else []
 
 
 def _kind(branch: CycleBranch) -> str:
@@ -107,6 +149,7 @@ def _kind(branch: CycleBranch) -> str:
 
 
 def _onset(branch: CycleBranch, onset: Cycle | None, say: Callable[[float], str]) -> str:
+    assert branch.critical is not None
     if onset is None or not np.isfinite(onset.value):
         side, end = ("down", np.min) if branch.critical.stable == "below" else ("up", np.max)
         return f"No stable limit cycle is found {side} to {value_text(branch, float(end(branch.values)), say)}."

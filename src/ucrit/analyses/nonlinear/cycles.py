@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,12 +15,14 @@ from ...core.numeric.compiled import compiled, direction
 from ...core.numeric.motion import motion
 from ...core.units import to_si
 from ...numerics.collocation import Field
-from ...numerics.cycle_branch import follow
+from ...numerics.cycle_branch import follow, follow_both_ways
 from ...numerics.cycle_points import Branch, Hopf
 from ...numerics.orbit import Orbit
 from ..results.convert import Table, Tabular
 from ..stability.critical import Critical, CriticalValues, critical, parameter_name
 from .cycle import Cycle, CycleBranch, of_point, table_of
+from .cycle_field import field_of
+from .cycle_start import settled_motion
 
 Array = npt.NDArray[Any]
 
@@ -29,7 +31,7 @@ TOLERANCE = 1e-6
 
 @dataclass(frozen=True)
 class LimitCycles(Tabular):
-    """All limit cycles that were followed from a vehicle's critical values of one parameter.
+    """All limit cycles that were followed from a vehicle's critical values of one parameter, or from a motion.
 
     Attributes
     ----------
@@ -40,7 +42,7 @@ class LimitCycles(Tabular):
     critical
         Critical values of straight running in the range.
     branches
-        One for each critical value of flutter from which cycles leave.
+        One for each critical value of flutter from which cycles leave, or the one of the cycle that a motion came to.
     """
 
     vehicle: Model
@@ -79,51 +81,17 @@ class LimitCycles(Tabular):
         return "\n".join(self.sentences)
 
 
-def field_of(vehicle: Model, parameter: str) -> Field:
-    """Return motion, slopes and switches of a vehicle as functions of states (n, P) and a value of the parameter."""
-    made, arguments = motion(type(vehicle)), list(vehicle.arguments())
-    place = list(type(vehicle).declaration.parameters).index(parameter)
-
-    def changed(value: float) -> tuple[list[Any], Array]:
-        given = [*arguments]
-        given[place] = value
-        return given, made.basic(given)[1]
-
-    def rates(x: Array, value: float) -> Array:
-        given, u = changed(value)
-        with np.errstate(all="ignore"):
-            try:
-                return made.rhs(x, np.broadcast_to(u[:, None], (len(u), x.shape[1])), given)
-            except np.linalg.LinAlgError:
-                return np.full(x.shape, np.nan)
-
-    def slopes(x: Array, value: float) -> tuple[Array, Array]:
-        given, u = changed(value)
-        with np.errstate(all="ignore"):
-            try:
-                found = made.slopes(x, np.broadcast_to(u[:, None], (len(u), x.shape[1])), given)
-            except np.linalg.LinAlgError:
-                n, count = x.shape
-                return np.full((count, n, n), np.nan), np.full((count, n), np.nan)
-        return found.A, found.E[..., place]
-
-    def switches(x: Array, value: float) -> Array:
-        given, u = changed(value)
-        return made.switches(x, np.broadcast_to(u[:, None], (len(u), x.shape[1])), given).reshape(-1, x.shape[1])
-
-    return Field(rates, slopes, switches)
-
-
 def limit_cycles(
     vehicle: Model,
     along: str | None = None,
     lower: float | str | None = None,
     upper: float | str | None = None,
     *,
+    start: Mapping[str, float | str] | None = None,
     tolerance: float = TOLERANCE,
     progress: Callable[[int, int], None] | None = None,
 ) -> LimitCycles:
-    """Follow the limit cycles of a vehicle from each critical value of flutter, through folds.
+    """Follow the limit cycles of a vehicle from each critical value of flutter, or from a motion, through folds.
 
     Parameters
     ----------
@@ -133,7 +101,11 @@ def limit_cycles(
         Parameter that is varied; the speed by default.
     lower, upper
         Range of the parameter [SI, or text with a unit]; by default from a fifth to three times the smallest
-        critical value of flutter.
+        critical value of flutter, or with ``start`` of the vehicle's own value.
+    start
+        Values of states, by name, from which the motion is simulated until it repeats; the cycle that it comes to is
+        followed both ways instead. So begin branches that no critical value in the range leads to: of dry friction,
+        of relays, between two folds.
     tolerance
         Relative error of the states that is asked for; each cycle tells what its estimate is.
     progress
@@ -148,8 +120,8 @@ def limit_cycles(
     Raises
     ------
     UcritError
-        If a name or range is wrong, a position is free, the equations are linear, or no limit cycle is found beside a
-        critical value.
+        If a name or range is wrong, a position is free, the equations are linear, no limit cycle is found beside a
+        critical value, or the motion from ``start`` dies out, runs away or does not repeat.
 
     Examples
     --------
@@ -157,10 +129,15 @@ def limit_cycles(
     >>> gear = limit_cycles(load("nose-gear", {"k": -10}), upper=30)
     >>> gear.branches[0].kind, [round(c.amplitude["psi"], 4) for c in gear.at(25)]
     ('supercritical', [0.4247])
+    >>> swaying = limit_cycles(load("caravan-with-stabiliser"), start={"theta": "20 deg"})
+    >>> swaying.branches[0].start.stable, swaying.branches[0].begin, swaying.branches[0].end
+    (True, 'equilibrium', 'range')
     """
     name = parameter_name(vehicle, along)
     declared = type(vehicle).declaration.parameters[name]
     low, high = (None if v is None else to_si(v, declared.unit, name) for v in (lower, upper))
+    if start is not None:
+        low, high = _around(vehicle, name, low, high)
     values = critical(vehicle, name, low, high)
     flutter = [c for c in values if c.kind == "flutter"]
     if not tolerance > 0:
@@ -168,12 +145,18 @@ def limit_cycles(
     free = compiled(type(vehicle), direction(vehicle)).structural_zeros
     if free:
         raise UcritError(f"{type(vehicle).model_id()}: {free} positions are free, so that no limit cycle stands alone")
-    low, high = _span(values, flutter, low, high)
+    if start is None:
+        low, high = _span(values, flutter, low, high)
+    assert low is not None
+    assert high is not None
     flutter = [c for c in flutter if low < c.value < high]
     found: list[CycleBranch] = []
     moving = field_of(vehicle, name)
-    if flutter and _linear(vehicle, moving, name):
+    if (flutter or start) and _linear(vehicle, moving, name):
         raise UcritError(f"{type(vehicle).model_id()}: the equations are linear, so that there are no limit cycles")
+    if start is not None:
+        both: Any = {"tolerance": tolerance, "beyond": _sideways(vehicle), "progress": progress}
+        found, flutter = [_from_motion(vehicle, moving, name, start, (low, high), both)], []
     for number, event in enumerate(flutter):
         if any(_ends_at(branch, event.value) for branch in found):
             continue
@@ -264,4 +247,32 @@ def _result(vehicle: Model, event: Critical, moving: Field, branch: Branch | Non
         )
     cycles = tuple(of_point(vehicle, event.parameter, point) for point in branch.points)
     labels = motion(type(vehicle)).labels
-    return CycleBranch(vehicle, event, event.parameter, event.unit, labels, cycles, branch.end, branch.points, moving)
+    return CycleBranch(vehicle, event, event.parameter, event.unit, labels, cycles, branch.end, branch.points)
+
+
+def _from_motion(
+    vehicle: Model, moving: Field, name: str, start: Mapping[str, Any], span: tuple[float, float], options: Any
+) -> CycleBranch:
+    """Return the branch of the cycle that the motion from a disturbance comes to."""
+    first = settled_motion(vehicle, moving, name, start, *span)
+    branch, place = follow_both_ways(moving, first, *span, **options)
+    cycles = tuple(of_point(vehicle, name, point) for point in branch.points)
+    unit, labels = type(vehicle).declaration.parameters[name].unit, motion(type(vehicle)).labels
+    return CycleBranch(
+        vehicle, None, name, unit, labels, cycles, branch.end, branch.points, branch.begin, cycles[place]
+    )
+
+
+def _around(vehicle: Model, name: str, lower: float | None, upper: float | None) -> tuple[float, float]:
+    """Return a range about the vehicle's own value of a parameter, where the given ends leave it open."""
+    value, declared = float(vehicle.values[name]), type(vehicle).declaration.parameters[name]
+    low, high = sorted((0.2 * value, 3 * value))
+    margin = 1e-9 * (high - low)  # a parameter's own bounds may not be allowed, such as standing still
+    low, high = low if lower is None else lower, high if upper is None else upper
+    low, high = max(low, declared.lower + margin), min(high, declared.upper - margin)
+    if not low < value < high:
+        raise UcritError(
+            f"{type(vehicle).model_id()}: the motion is that at {name} = {value:g} {declared.unit}, which must be "
+            f"between {low:g} and {high:g}, where its limit cycle is to be followed"
+        )
+    return low, high

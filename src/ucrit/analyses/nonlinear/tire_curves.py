@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -165,8 +166,9 @@ def tire_curves(
     >>> curves.peak_side[0].round(6).tolist()
     [[1800.0, 3600.0], [180.0, 360.0]]
     """
-    if not hasattr(tire, "forces"):
-        raise UcritError(f"tire_curves needs a tire, as from ucrit.tire('brush', C=80_000), got {type(tire).__name__}")
+    if not isinstance(tire, Part) or not callable(getattr(tire, "forces", None)):
+        got = f"the law {tire.__name__} without numbers" if isinstance(tire, type) else type(tire).__name__
+        raise UcritError(f"tire_curves needs a tire, as from ucrit.tire('brush', C=80_000), got {got}")
     F_z = _numbers(loads, "load", "N", above=0.0)
     angles = _numbers(np.radians(np.linspace(0, 20, 161)) if alpha is None else alpha, "slip angle", "rad")
     slips = _numbers(_slips() if kappa is None else kappa, "longitudinal slip", "1")
@@ -177,16 +179,16 @@ def tire_curves(
         raise UcritError(f"longitudinal slip must be at least -1, where the wheel is locked, got {slips[0]:g}")
     surfaces = {"as given": 1.0} if roads is None else dict(roads)
     tires = [tire if factor == 1 else tire.on_road(factor) for factor in surfaces.values()]
-    free = [one.forces(F_z[:, None], angles, 0, gamma) for one in tires]
-    straight = [one.forces(F_z[:, None], 0.0, slips, gamma) for one in tires]
-    both = [one.forces(F_z[:, None, None], combined[:, None], slips, gamma) for one in tires]
-
-    limits = [_limit(one, F_z, slips, gamma) for one in tires]
+    with np.errstate(all="ignore"):
+        free = [one.forces(F_z[:, None], angles, 0, gamma) for one in tires]
+        straight = [one.forces(F_z[:, None], 0.0, slips, gamma) for one in tires]
+        both = [one.forces(F_z[:, None, None], combined[:, None], slips, gamma) for one in tires]
+        limits = [_limit(one, F_z, slips, gamma) for one in tires]
 
     def stacked(found: list[Any], name: str, *shape: int) -> Array:
         return np.array([np.broadcast_to(getattr(forces, name), (F_z.size, *shape)) for forces in found], dtype=float)
 
-    return TireCurves(
+    found = TireCurves(
         *(tire, surfaces, F_z, angles, slips, combined),
         F_y=stacked(free, "F_y", angles.size),
         M_z=stacked(free, "M_z", angles.size),
@@ -196,6 +198,17 @@ def tire_curves(
         limit_x=np.stack([x for x, _ in limits]),
         limit_y=np.stack([y for _, y in limits]),
     )
+    _refuse_absurd(found)
+    return found
+
+
+def _refuse_absurd(found: TireCurves) -> None:
+    """Refuse loads at which a law, carried on far beyond the loads that it is for, gives no number."""
+    forces = (found.F_y, found.F_x, found.M_z, found.envelope_x, found.envelope_y, found.limit_x, found.limit_y)
+    fine = [np.isfinite(F).all(axis=tuple(k for k in range(F.ndim) if k != 1)) for F in forces]
+    wrong = found.loads[~np.all(fine, axis=0)]
+    if wrong.size:
+        raise UcritError(f"{type(found.tire).part_id()}: the law gives no forces at a load of {wrong[0]:g} N")
 
 
 def _limit(tire: Any, F_z: Array, slips: Array, gamma: float) -> tuple[Array, Array]:
@@ -279,10 +292,14 @@ def _peak(forces: Array, slips: Array) -> tuple[Array, Array]:
     return np.where(ends, forces.max(-1), np.maximum(top, mid)), np.where(ends, np.nan, x_1 + step)
 
 
+@cache
+def _bench_of(law: type[Part]) -> type[Model]:
+    """Return a model that has nothing but a tire of one law."""
+    return type("TireBench", (Model,), {"__doc__": "One tire on a test bench.", "tire": slot(law, "tire")})
+
+
 def _bench(tire: Any) -> Model:
-    """Return the tire on a test bench: a model that has nothing but it, for the tables that results are told in."""
+    """Return the tire on a test bench, for the tables that results are told in."""
     law: type[Part] = type(tire)
-    bench = type("TireBench", (Model,), {"__doc__": "One tire on a test bench.", "tire": slot(law, "tire")})
-    values = {f"tire_{name}": getattr(tire, name) for name in law.parameters}
-    found: Model = bench(**values)
+    found = _bench_of(law)(**{f"tire_{name}": getattr(tire, name) for name in law.parameters})
     return found.with_info(name=law.part_id())

@@ -33,7 +33,7 @@ SCHEMA = 1
 
 
 @dataclass(frozen=True)
-class Series:
+class Series(Record):
     """One array of a result: name, names of its dimensions, values, unit (empty for texts and flags)."""
 
     name: str
@@ -43,7 +43,7 @@ class Series:
 
 
 @dataclass(frozen=True)
-class Table:
+class Table(Record):
     """A result as named arrays; ``rows`` are the dimensions that become rows of a flat table.
 
     ``beside`` are arrays with a dimension of their own, which a flat table leaves out.
