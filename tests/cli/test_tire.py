@@ -38,7 +38,7 @@ def test_curves_are_written(run: Run, tmp_path: Path, ending: str) -> None:
     [
         (["pacejca-205"], "did you mean 'pacejka-205-60r15'?"),
         (["none.tir"], "there is no file 'none.tir'"),
-        (["brush"], "a law, which needs a tire.s numbers"),
+        (["brush"], "a law, which needs a tire's numbers"),
         (["brush", "--set", "C=3", "--load", "-1"], "load must be above 0 N, got -1 N"),
         (["brush", "--set", "C=3", "--road", "ice"], "NAME=VALUE"),
         (["brush", "--set", "C=3", "--road", "ice=0"], "friction mu must be above 0"),

@@ -27,6 +27,7 @@ class Car(Model):
     delta_r = input("rad", "rear steer angle")
 
     a_y = output("m/s^2", "lateral acceleration of the centre of mass")
+    curvature = output("1/m", "curvature of a steady turn, one over its radius")
     beta = output("rad", "sideslip angle of the centre of mass")
     alpha_f = output("rad", "slip angle of the front axle")
     alpha_r = output("rad", "slip angle of the rear axle")
@@ -63,6 +64,7 @@ class Car(Model):
         front, rear = self.slip_angles(x, u)
         return {
             "a_y": dx.V + x.r * self.U,
+            "curvature": x.r / self.U,
             "beta": slip_angle(x.V, self.U),
             "alpha_f": front,
             "alpha_r": rear,

@@ -3,7 +3,8 @@ runs along x with speed U. Lean, yaw rate and steer angles are positive to the r
 
 The wheels do not slip sideways, so the steer angles give the ground point's lateral velocity V and yaw rate r.
 p is the momentum of Lagrange's equation for the lean angle, dT/d(theta'): with it in place of the lean rate the
-equations hold the steer angles, not their rates, and a steer angle may jump.
+equations hold the steer angles, not their rates, and a steer angle may jump. A wheel across the track would have to
+turn the vehicle on the spot: a motion ends there.
 """
 
 from ..core import Drawing, Model, cos, event, input, output, param, sin, speed, state
@@ -62,5 +63,9 @@ class Lean(Model):
     def drawing(self, x):
         return Drawing("rear", leaning(self.h, x.theta))
 
-    def events(self, x):
-        return {"falls over": event(cos(x.theta), ends=True)}
+    def events(self, x, u):
+        crosswise = {
+            f"steers its {place} wheel across": event(cos(delta), when="falling", ends=True, from_start=True)
+            for place, delta in (("front", u.delta_f), ("rear", u.delta_r))
+        }
+        return {"falls over": event(cos(x.theta), ends=True), **crosswise}

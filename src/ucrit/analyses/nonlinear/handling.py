@@ -158,7 +158,7 @@ def handling_diagram(
     steer
         The input [rad] that steers.
     slip
-        Slip angle [rad, or text with a unit] of an axle at which the diagram ends.
+        Slip angle [rad, or text with a unit] of an axle at which the diagram ends; below a right angle.
     free
         What else adjusts itself. By default nothing, or what the model names in ``keeps_speed``: the input that holds
         a state, such as the drive torque that keeps the forward velocity.
@@ -197,8 +197,8 @@ def handling_diagram(
     if fastest is not None and turns.constant == "speed":
         raise UcritError("upto ends a test with rising speed: give a radius or an angle, or set the car's speed")
     reach = to_si(slip, "rad", "slip")
-    if not 0 < reach < np.inf:
-        raise UcritError(f"slip must be above 0 rad, got {reach:g} rad")
+    if not 0 < reach < np.pi / 2:
+        raise UcritError(f"slip must be above 0 rad and below a right angle, 1.5708 rad, got {reach:g} rad")
     within = {"alpha_f": (-reach, reach), "alpha_r": (-reach, reach)}
     return _diagram(vehicle, turns, turns.follow(vehicle, within, step, fastest))
 

@@ -23,6 +23,9 @@ from .steady_problem import Problem
 
 Array = npt.NDArray[Any]
 
+FARTHEST = 1e12
+"""Largest value [SI] that the moving quantity can be sent to: steps are shares of the way."""
+
 STANDING = 1e-6
 """A quantity that moves by less than this share of its way, per length of the curve, does not turn back."""
 
@@ -200,12 +203,12 @@ def steady_family(
     freed = (free,) if isinstance(free, str) else tuple(free)
     problem = Problem(vehicle, along, freed, hold or {})
     goal = problem.number(along, to)
-    limits: dict[str, tuple[float, ...]] = {}
-    for bounds in (getattr(type(vehicle), "valid", {}), within or {}):
-        for name, sides in bounds.items():
-            low, high = limits.get(name, (-np.inf, np.inf))
-            one, other = (problem.number(name, side) for side in sides)
-            limits[name] = max(low, one), min(high, other)
+    if not abs(goal) <= FARTHEST:
+        raise UcritError(
+            f"{type(vehicle).model_id()}: {along} must be a finite value to move to, at most {FARTHEST:g} either way, "
+            f"got {goal:g}"
+        )
+    limits = _limits(problem, within or {})
     start = problem.start()
     first = problem.value(along, start)
     if goal == first:
@@ -229,6 +232,24 @@ def steady_family(
     except NoConvergenceError as error:
         raise UcritError(f"{type(vehicle).model_id()}: no family of steady motions sets out: {error}") from None
     return _result(problem, curve, sides)
+
+
+def _limits(problem: Problem, within: Mapping[str, tuple[Any, Any]]) -> dict[str, tuple[float, float]]:
+    """Return lowest and highest values of quantities, those of the model and those that were asked for."""
+    limits: dict[str, tuple[float, float]] = {}
+    for bounds in (getattr(type(problem.vehicle), "valid", {}), within):
+        for name, sides in bounds.items():
+            if not isinstance(sides, tuple | list | np.ndarray) or len(sides) != 2:
+                raise UcritError(
+                    f"{problem.model}: within needs the lowest and the highest value of {name}, such as (-1, 1), "
+                    f"got {sides!r}"
+                )
+            low, high = limits.get(name, (-np.inf, np.inf))
+            one, other = (problem.number(name, side) for side in sides)
+            if not one < other:
+                raise UcritError(f"{problem.model}: within has no room for {name} between {one:g} and {other:g}")
+            limits[name] = max(low, one), min(high, other)
+    return limits
 
 
 def _rate(problem: Problem, way: float, least: float, point: Any) -> float:

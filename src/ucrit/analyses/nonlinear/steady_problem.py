@@ -18,6 +18,7 @@ from ...core.errors import UcritError, near_match
 from ...core.numeric.motion import Slopes, motion
 from ...core.units import to_si
 from ...numerics.continuation import Curve, NoConvergenceError, follow
+from ..stability.wording import speed_text
 
 Array = npt.NDArray[Any]
 
@@ -261,13 +262,21 @@ class Problem:
         }
         for name, (low, high) in (*bounds.items(), *limits.items()):
             if np.isfinite(low):
-                found[f"{name} is at its least, {low:g}"] = self._beyond(name, low, 1)
+                found[f"{name} is at its least, {self.told(name, low)}"] = self._beyond(name, low, 1)
             if np.isfinite(high):
-                found[f"{name} is at its most, {high:g}"] = self._beyond(name, high, -1)
+                found[f"{name} is at its most, {self.told(name, high)}"] = self._beyond(name, high, -1)
         return found
 
     def _beyond(self, name: str, value: float, sense: int) -> Callable[[Array], float]:
         return lambda y: sense * (self.value(name, y) - value)
+
+    def told(self, name: str, value: float) -> str:
+        """Return a value of a quantity with its unit, a forward speed in km/h and an angle in degrees too."""
+        unit, moves = self.units.get(name, "1"), getattr(type(self.vehicle), "keeps_speed", {})
+        if name == type(self.vehicle).declaration.speed or name in moves.values():
+            return speed_text(value)
+        also = f" ({np.rad2deg(value):.3g} deg)" if unit == "rad" else ""
+        return f"{value:.4g}{'' if unit == '1' else ' ' + unit}{also}"
 
     def words(self, curve: Curve) -> str:
         """Say why a curve ends."""
@@ -286,8 +295,7 @@ class Problem:
         unknowns = [self.labels[i] for i in self.used] + list(self.freed)
         gone = np.abs(curve.tangents[-1]) / np.maximum(np.abs(curve.points[-1]), np.finfo(float).tiny)
         moving = [name for name, share in zip(unknowns, gone, strict=True) if share > MOVING * gone.max()]
-        unit = self.units.get(self.along, "1")
-        value = f"{self.value(self.along, curve.points[-1]):.4g}{'' if unit == '1' else ' ' + unit}"
+        value = self.told(self.along, self.value(self.along, curve.points[-1]))
         *some, last = moving
         others = f"{', '.join(some)} and {last} go" if some else f"{last} goes"
         return f"{self.along} stays at {value} while {others} on"

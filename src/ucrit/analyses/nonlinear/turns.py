@@ -12,6 +12,7 @@ from ...core.contract.model import Model
 from ...core.errors import UcritError
 from ...core.units import to_si
 from ..linear.steady import GRAVITY
+from ..stability.wording import speed_text
 from .steady_family import SteadyFamily, steady_family
 
 Constant = Literal["speed", "radius", "steer angle"]
@@ -66,7 +67,7 @@ class Turns:
     def words(self) -> str:
         """What is constant: ``"at 25 m/s"``, ``"on a radius of 60 m"``, ``"at a steer angle of 2 deg"``."""
         if self.constant == "speed":
-            return f"at {self.value:.4g} m/s"
+            return f"at {speed_text(self.value)}"
         if self.constant == "radius":
             return f"on a radius of {self.value:.4g} m, the speed rising"
         return f"at a steer angle of {np.rad2deg(self.value):.4g} deg, the speed rising"
