@@ -104,7 +104,7 @@ def test_a_motion_that_leads_to_no_cycle_is_told_in_one_sentence(name, start, to
 
 
 def test_the_motion_is_that_at_the_vehicles_own_value():
-    with pytest.raises(UcritError, match="the motion is that at epsilon = 0.05 1/s, which must be between 0.2 and 3"):
+    with pytest.raises(UcritError, match=r"the motion is that at epsilon = 0.05 1/s, which must be between 0\.2 and 3"):
         limit_cycles(VanDerPol(epsilon=0.05), "epsilon", 0.2, 3, start={"x": 1})
 
 

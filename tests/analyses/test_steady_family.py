@@ -1,11 +1,13 @@
 """Families of steady motions: equal to closed forms, stability by two criteria, and refusals in a sentence."""
 
+import math
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from ucrit import UcritError, critical, load, steady_family, steady_turn
+from ucrit import UcritError, critical, handling_diagram, load, steady_family, steady_turn
 from ucrit.core.numeric.motion import motion
 
 INSIDE = {"alpha_f": (-0.3, 0.3), "alpha_r": (-0.3, 0.3)}
@@ -161,5 +163,55 @@ def test_a_family_ends_where_tires_have_given_all_they_can(along, to, tires):
 
 def test_a_family_ends_where_the_model_is_no_longer_good():
     turns = steady_family(load("four-wheel-car"), "delta_f", 0.5, free="drive", hold={"v_x": 27.8}, step=0.2)
-    assert turns.end == "F_fr is at its least, 0"
+    assert turns.end == "F_fr is at its least, 0 N"
     assert turns["F_fr"][-1] == pytest.approx(0, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("to", "within", "told"),
+    [
+        (math.inf, {}, "a_y must be a finite value to move to, at most 1e"),
+        (1e308, {}, "a_y must be a finite value to move to, at most 1e"),
+        (9, {"a_y": 1}, r"within needs the lowest and the highest value of a_y, such as \(-1, 1\), got 1"),
+        (9, {"a_y": "xy"}, "within needs the lowest and the highest value"),
+        (9, {"a_y": (1, 2, 3)}, "within needs the lowest and the highest value"),
+        (9, {"a_y": (5, -5)}, "within has no room for a_y between 5 and -5"),
+    ],
+)
+def test_where_a_family_cannot_go_is_told(to, within, told):
+    with pytest.raises(UcritError, match=told):
+        steady_family(load("spinning-car"), "a_y", to, free="delta_f", within=within)
+
+
+def test_ends_are_told_with_units_and_slips_end_at_a_right_angle():
+    found = str(handling_diagram(load("spinning-car")))
+    assert "at 27.78 m/s (100 km/h)" in found
+    assert "ends: alpha_r is at its least, -0.3 rad (-17.2 deg)" in found
+    with pytest.raises(UcritError, match="slip must be above 0 rad and below a right angle"):
+        handling_diagram(load("spinning-car"), slip=2)
+
+
+@pytest.mark.parametrize("name", ["understeering-car", "oversteering-car", "neutral-car"])
+def test_the_linear_car_on_a_constant_radius_keeps_the_understeer_formula(name):
+    """delta = L/R + K a_y with K = m (b/C_f - a/C_r)/L while angles are small; with the model's own tangents always."""
+    car = load(name)
+    found = handling_diagram(car, radius="200 m")
+    length = car.a + car.b
+    front, rear = (car.m * x / C / length * found.a_y for x, C in ((car.b, car.C_f), (car.a, car.C_r)))
+    np.testing.assert_allclose(found.curvature, 1 / 200, rtol=1e-9)
+    np.testing.assert_allclose(
+        np.tan(found.delta - front / np.cos(found.delta)) + np.tan(rear), length / 200, rtol=1e-7
+    )
+    K, slow = car.m * (car.b / car.C_f - car.a / car.C_r) / length, found.a_y < 2
+    np.testing.assert_allclose(found.delta[slow], length / 200 + K * found.a_y[slow], rtol=5e-3)
+    assert slow.sum() > 20
+
+
+def test_a_car_that_brakes_its_wheels_is_followed_past_where_it_begins_to():
+    """The braking begins beyond a dead band, a kink of the equations, so that the family has a corner."""
+    found = handling_diagram(load("car-with-stability-control"), radius="50 m", step=0.1)
+    begun = int(np.argmax(found.family["added_rr"] > 1))
+    assert found.a_y[begun] == pytest.approx(4.99, abs=0.05)
+    assert found.family["error"][begun] < -load("car-with-stability-control").values["e_0"]
+    assert found.largest > 7
+    assert "cannot be followed" not in found.family.end

@@ -127,5 +127,7 @@ def test_loads_at_which_a_law_gives_no_number_are_refused():
 
 
 def test_a_law_without_numbers_says_what_to_do():
-    with pytest.raises(UcritError, match=r"'magic-formula' is a law, .* name a .tir file or a tire that is shipped: .*pac"):
+    with pytest.raises(
+        UcritError, match=r"'magic-formula' is a law, .* name a .tir file or a tire that is shipped: .*pac"
+    ):
         tire("magic-formula")

@@ -7,7 +7,7 @@ import pytest
 import sympy as sp
 from agreement import SETS, varied
 
-from ucrit import criteria, find_model, load, modes, transfer
+from ucrit import criteria, find_model, load, modes, simulate, transfer
 from ucrit.checks import check_model
 from ucrit.core.derivation.derive import symbolic
 from ucrit.core.derivation.trace import trace
@@ -164,3 +164,12 @@ def test_in_a_steady_turn_energy_less_that_of_turning_is_conserved(seed):
 def test_the_linear_model_knows_no_pitch_and_yaw_inertia():
     names = {symbol.name for a in symbolic(find_model("lean")).polynomial.expressions for symbol in a.free_symbols}
     assert names == {"m", "h", "I_1", "g"}
+
+
+@pytest.mark.parametrize("place", ["front", "rear"])
+def test_a_wheel_that_is_steered_across_ends_the_motion(place):
+    vehicle = load("motorcycle-lean")
+    for shape, when in (("100 deg", 0.0), ("step -120 deg at 0.1 s", 0.1)):
+        found = simulate(vehicle, 1, inputs={f"delta_{place[0]}": shape})
+        assert found.ended == f"steers its {place} wheel across"
+        assert found.times[-1] == pytest.approx(when)

@@ -132,3 +132,31 @@ def test_steps_do_not_depend_on_units(powers):
     np.testing.assert_allclose(other.points / [a, b], one.points, rtol=1e-6, atol=1e-6)
     folds = [crossing.point.y[0] / a for crossing in other.crossings]
     np.testing.assert_allclose(folds, [-(3**-0.5), 3**-0.5], atol=1e-8)
+
+
+@pytest.mark.parametrize("slope", [3.0, 0.2, -0.5, -4.0, 500.0])
+def test_a_curve_goes_round_the_corner_that_a_kink_of_the_equations_makes(slope):
+    """``y = x`` up to x = 1, and straight on from there with another slope, however sharp the corner is."""
+
+    def kinked(z):
+        x, y = z
+        beyond = max(x - 1, 0.0)
+        return np.array([y - x - (slope - 1) * beyond]), np.array([[-1 - (slope - 1) * (x > 1), 1.0]])
+
+    found = follow(
+        kinked, np.zeros(2), np.ones(2), stops={"far": lambda z: 2 - z[0], "high": lambda z: 3 - abs(z[1])}, step=0.1
+    )
+    assert found.end in ("far", "high")
+    x, y = found.points.T
+    np.testing.assert_allclose(y, np.where(x < 1, x, 1 + slope * (x - 1)), atol=1e-9)
+    assert x.max() > 1.003
+
+
+def test_a_stability_that_changes_at_a_corner_is_a_crossing():
+    def kinked(z):
+        return np.array([abs(z[0] - 1) + z[0] - 1 - z[1]]), np.array([[1 + np.sign(z[0] - 1), -1.0]])
+
+    tests = {"steep": lambda point: abs(point.tangent[1]) - abs(point.tangent[0])}
+    found = follow(kinked, np.zeros(2), np.array([1.0, 0.0]), tests=tests, stops={"far": lambda z: 2 - z[0]})
+    (crossing,) = found.crossings
+    assert crossing.point.y[0] == pytest.approx(1, abs=1e-4)

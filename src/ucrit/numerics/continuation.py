@@ -4,7 +4,8 @@ Each step goes along the tangent and back to the curve at right angles to it by 
 P. Rabinowitz (ed.), Applications of Bifurcation Theory (1977) 359-384). A step is taken only if Newton's method
 converges from nearby, the tangent turns little, and the chord agrees with the tangents at both of its ends; else it is
 halved. A step over which the orientation of the bordered Jacobian changes has gone past a branch point or has jumped to
-another curve: it is halved until a jump would show, and what is left is reported as a branch point.
+another curve: it is halved until a jump would show, and what is left is reported as a branch point. Where the
+equations have a kink the curve has a corner, round which it goes on with the slopes of the other side.
 """
 
 from __future__ import annotations
@@ -35,6 +36,9 @@ BRANCH = 1e-6
 STANDING, STILL = 1e-4, 1.0
 """A quantity that moves by less than this share of its usual size per length of the curve stands still; a curve ends
 on which it has done so for this length. (Lengths are shares of the way gone, so that little is still to come.)"""
+
+CORNERS, CORNER = (1e-5, 1e-4, 1e-3), 0.02
+"""Lengths of a step across a kink of the equations, and the angle [rad] from which on the curve has a corner there."""
 
 
 Test = Callable[[Point], float]
@@ -177,8 +181,17 @@ class _Walk:
                     continue
             except NoConvergenceError as error:
                 h /= 2
-                if h < smallest:
+                if h >= smallest:
+                    continue
+                corner = self.round_corner()
+                if corner is None:
                     return self.curve("failed", str(error))
+                self.found.append(corner)
+                values = {name: test(corner) for name, test in tests.items()}
+                after, changed = len(self.found) - 2, [n for n, v in values.items() if v * signs[n] < 0]
+                self.crossings += [Crossing(name, after, corner) for name in changed]
+                signs.update({name: value or signs[name] for name, value in values.items()})
+                h = 10 * smallest
                 continue
             passed = next((name for name, inside in stops.items() if inside(new.y) <= 0), "")
             if passed:
@@ -241,6 +254,32 @@ class _Walk:
         if turned > TURN or bent > BEND[0] * float(np.linalg.norm(after - t)) + BEND[1]:
             raise NoConvergenceError("the curve has a corner, or another one is too near to tell them apart")
         return new, turned
+
+    def round_corner(self) -> Point | None:
+        """Return a point a little beyond a kink of the equations, where the curve has a corner; None where it has none.
+
+        The determinants with the tangents on both sides have one sign: Jacobians beside a kink differ by a matrix of
+        rank one, which leaves the determinant with the kink's normal as it is.
+        """
+        t, y = self.frame()
+        before = self.found[-1]
+        for length in CORNERS:
+            try:
+                jacobian = self.function(y + length * t * self.scale)[1]
+                if not np.isfinite(jacobian).all():
+                    return None
+                ahead = tangent_at(jacobian, t, self.scale)
+                beyond = Point(y, ahead * self.scale, jacobian)
+                ahead = ahead * (1 if self.orientation(beyond) == self.orientation(before) else -1)
+                if abs(float(t @ ahead)) > math.cos(CORNER):
+                    continue
+                new, jacobian, first = solve(self.function, y + length * ahead * self.scale, ahead, self.scale)
+                tangent = tangent_at(jacobian, ahead, self.scale)
+            except NoConvergenceError:
+                continue
+            if first < length and float(tangent @ ahead) > math.cos(TURN):
+                return Point(new, tangent * self.scale, jacobian)
+        return None
 
     def closes(self, new: Point, h: float) -> bool:
         if len(self.found) < 4:
