@@ -118,7 +118,7 @@ def pieces(branch: CycleBranch, size: Array) -> Iterator[tuple[Array, Array, boo
     if branch.critical is not None:
         x, y, kind = np.append(branch.critical.value, x), np.append(0.0, y), np.append(kind[:1], kind)
         fold = np.append(False, fold)
-    for i in np.flatnonzero(fold[1:]) + 1:  # a fold belongs to what comes before it, and ends it
+    for i in (np.flatnonzero(fold[1:]) + 1).tolist():  # a fold belongs to what comes before it, and ends it
         kind[i] = kind[i - 1]
     start = 0
     for i in range(1, len(x)):

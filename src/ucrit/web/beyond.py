@@ -64,7 +64,7 @@ def cycles(vehicle: Model, body: Mapping[str, Any]) -> Answer:
         "straight": [{"x": [a, b], "stable": stable} for a, b, stable in straight(found, left, right)],
         "branches": [
             {
-                "critical": branch.critical.value,
+                "critical": branch.critical.value if branch.critical else None,
                 "pieces": [
                     {"x": x.tolist(), "y": (factor * y).tolist(), "stable": stable}
                     for x, y, stable in pieces(branch, size)

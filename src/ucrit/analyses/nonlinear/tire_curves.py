@@ -166,9 +166,7 @@ def tire_curves(
     >>> curves.peak_side[0].round(6).tolist()
     [[1800.0, 3600.0], [180.0, 360.0]]
     """
-    if not isinstance(tire, Part) or not callable(getattr(tire, "forces", None)):
-        got = f"the law {tire.__name__} without numbers" if isinstance(tire, type) else type(tire).__name__
-        raise UcritError(f"tire_curves needs a tire, as from ucrit.tire('brush', C=80_000), got {got}")
+    _refuse_other(tire)
     F_z = _numbers(loads, "load", "N", above=0.0)
     angles = _numbers(np.radians(np.linspace(0, 20, 161)) if alpha is None else alpha, "slip angle", "rad")
     slips = _numbers(_slips() if kappa is None else kappa, "longitudinal slip", "1")
@@ -200,6 +198,12 @@ def tire_curves(
     )
     _refuse_absurd(found)
     return found
+
+
+def _refuse_other(tire: Any) -> None:
+    if not isinstance(tire, Part) or not callable(getattr(tire, "forces", None)):
+        got = f"the law {tire.__name__} without numbers" if isinstance(tire, type) else type(tire).__name__
+        raise UcritError(f"tire_curves needs a tire, as from ucrit.tire('brush', C=80_000), got {got}")
 
 
 def _refuse_absurd(found: TireCurves) -> None:
@@ -293,13 +297,13 @@ def _peak(forces: Array, slips: Array) -> tuple[Array, Array]:
 
 
 @cache
-def _bench_of(law: type[Part]) -> type[Model]:
+def _bench_of(law: Any) -> type[Model]:
     """Return a model that has nothing but a tire of one law."""
     return type("TireBench", (Model,), {"__doc__": "One tire on a test bench.", "tire": slot(law, "tire")})
 
 
 def _bench(tire: Any) -> Model:
     """Return the tire on a test bench, for the tables that results are told in."""
-    law: type[Part] = type(tire)
+    law: Any = type(tire)
     found = _bench_of(law)(**{f"tire_{name}": getattr(tire, name) for name in law.parameters})
     return found.with_info(name=law.part_id())
