@@ -248,12 +248,14 @@ def _diagram(vehicle: Model, turns: Turns, family: SteadyFamily) -> Handling:
 
 
 def _limit(family: SteadyFamily, top: int) -> str:
-    """Name the axle whose slip runs away where the lateral acceleration is largest."""
+    """Name the axle whose slip runs away where the lateral acceleration is largest, just behind a corner there."""
     slips = {name: np.abs(family.rates[name]) for name in ("alpha_f", "alpha_r")}
     gain = np.abs(family.rates["a_y"])
     with np.errstate(all="ignore"):
-        left = {name: (gain / s)[top] / (gain / s)[0] for name, s in slips.items()}
-    if min(left.values()) > SATURATED:
+        shares = np.array([(gain / s) / (gain / s)[0] for s in slips.values()]).min(axis=0)
+    if shares[top] > SATURATED and top + 1 < len(gain):
+        top += 1
+    if shares[top] > SATURATED:
         return ""
     grows = {name: float(s[top]) for name, s in slips.items()}
     small, large = sorted(grows.values())
