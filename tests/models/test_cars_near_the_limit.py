@@ -81,7 +81,7 @@ def test_its_gentle_turns_are_those_of_the_linear_car():
     assert found.gradient[0] == pytest.approx(steady_turn(linear_car(car)).gradient, rel=1e-4)
     assert found.family["v_x"] == pytest.approx(car.U)
     assert found.family["drive"][-1] > 0  # what the front wheels' side forces take
-    assert found.family.end == "F_fr is at its least, 0"
+    assert found.family.end == "F_fr is at its least, 0 N"
 
 
 def test_without_forces_it_runs_straight_on():
