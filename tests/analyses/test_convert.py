@@ -162,7 +162,7 @@ def test_control_systems_have_names_and_the_same_poles():
     assert isinstance(system, control.StateSpace)
     assert system.state_labels == ["V", "r"]
     assert system.input_labels == ["delta_f", "delta_r"]
-    assert system.output_labels == ["V", "r", "a_y", "beta", "alpha_f", "alpha_r"]
+    assert system.output_labels == ["V", "r", "a_y", "curvature", "beta", "alpha_f", "alpha_r"]
     A, B, C, D = state_space(car)
     np.testing.assert_array_equal(system.A, A)
     np.testing.assert_array_equal(system.B, B)
