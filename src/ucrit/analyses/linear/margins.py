@@ -52,6 +52,10 @@ class Margins(Tabular):
     delay: Array
     disk: Array
 
+    def findings(self) -> dict[str, Any]:
+        """Return the input at which the loop is cut, and the margins in words."""
+        return {"input": self.input, "sentence": str(self)}
+
     def table(self) -> Table:
         """Return the margins over the vehicle's array parameters."""
         dims = self.vehicle.dims

@@ -102,6 +102,23 @@ class Certificate(Tabular):
             "allow more boxes or take a smaller region"
         )
 
+    def findings(self) -> dict[str, Any]:
+        """Return the state, in words too, and a counter-example: its values and eigenvalues."""
+        found = self.counterexample
+        against = (
+            None
+            if found is None
+            else {
+                "values": dict(found.values),
+                "eigenvalues": [{"re": z.real, "im": z.imag} for z in found.eigenvalues],
+            }
+        )
+        return {
+            "ranges": {name: [float(end) for end in ends] for name, ends in self.ranges.items()},
+            "state": self.state, "sentence": self.sentence, "proved_share": self.proved_share, "boxes": self.boxes,
+            "counterexample": against,
+        }  # fmt: skip
+
     def table(self) -> Table:
         """Return one row for each box left undecided."""
         rows = ("box",)
