@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ...core.contract.model import Model
 from ...core.errors import UcritError
 from ...core.numeric.compiled import compiled, direction, labels, state_space
+from ...core.numeric.reach import refuse_lost, unusable
 from ...core.record import Record
 from ...core.units import dimension
 from ...numerics.assignment import assign
@@ -245,6 +246,8 @@ def eigensystem(vehicle: Model) -> tuple[Array, Array]:
     """Return eigenvalues [1/s] (..., n) and right eigenvectors (..., n, n) in columns, in order."""
     values, vectors = np.linalg.eig(_state_matrix(vehicle))
     values, vectors = values.astype(complex), vectors.astype(complex)
+    if not vehicle.dims:
+        refuse_lost(vehicle, values)
     order = _order(values)
     values = np.take_along_axis(values, order, axis=-1)
     vectors = np.take_along_axis(vectors, order[..., None, :], axis=-1)
@@ -260,7 +263,7 @@ def eigenvalues(vehicle: Model) -> Array:
 def _state_matrix(vehicle: Model) -> Array:
     A = state_space(vehicle).A
     if not np.all(np.isfinite(A)):
-        raise UcritError(f"{type(vehicle).model_id()}: the equations are singular for these parameters")
+        raise unusable(vehicle)
     return A
 
 

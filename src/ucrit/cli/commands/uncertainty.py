@@ -63,9 +63,9 @@ def command(
     subject = load_vehicle(vehicle, assignments(changes, 'a=1.9 or "m=2 t"'))
     with progress("vehicles") as advance:
         found = uncertainty(subject, samples=samples, seed=seed, upto=upto, indices=indices, progress=advance)
-    if write is not None:
-        write(found)
     if as_json:
+        if write is not None:
+            write(found)
         print_json(found)
         return
     from ..render_sure import show_uncertainty
@@ -73,5 +73,6 @@ def command(
 
     show_uncertainty(terminal(), found)
     if write is not None:
+        write(found)
         print()
         written(str(out))

@@ -184,7 +184,8 @@ class Compiled:
         slopes = {}
         for name, change in zip(self.model.declaration.parameters, changes, strict=True):
             dL, dR = _stack([change.get(i, 0.0) for i in range(count)], shapes, _shape(arguments))
-            slopes[name] = pick @ np.linalg.solve(L, dR - dL @ z)
+            with np.errstate(all="ignore"):
+                slopes[name] = pick @ np.linalg.solve(L, dR - dL @ z)
         return slopes
 
 
