@@ -57,6 +57,8 @@ def _verdict(page: Page, found: Analysis) -> None:
     page.line((word, f"bold {colour}"), (at, "bold"))
     sentence = found.sentence
     page.paragraph(sentence[:1].upper() + sentence[1:] + ".")
+    if found.caveat:
+        page.paragraph(f"But {found.caveat}.", "yellow")
     if found.audit is not None:
         page.paragraph(f"Audit: {found.audit.sentence}.", "" if found.audit.agrees else "bold red")
 

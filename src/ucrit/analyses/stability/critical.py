@@ -12,6 +12,7 @@ import math
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -25,6 +26,7 @@ from ..results.convert import Series, Table, Tabular
 from .criteria import Boundary, criteria
 from .exact import exact_search
 from .scan import scan
+from .wording import caveat
 
 NEAR = 1e-9
 """Share of a critical value by which a root through infinity is looked at beside it."""
@@ -115,6 +117,10 @@ class CriticalValues(Tabular):
             stable.append(not stable[-1])
         return [(a, b) for a, b, good in zip(edges, edges[1:], stable, strict=False) if good]
 
+    def findings(self) -> dict[str, Any]:
+        """Return whether none can be missing, and what the equations leave out where a law jumps or has a kink."""
+        return {"exact": self.exact, "caveat": caveat(self.vehicle)}
+
     def table(self) -> Table:
         """Return one row for each critical value: value, kind, frequency, the stable side and the mode."""
         numbers = np.arange(1, len(self.values) + 1)
@@ -130,7 +136,8 @@ class CriticalValues(Tabular):
         return Table("critical values", self.vehicle, (Series("number", rows, numbers),), data, rows)
 
     def __str__(self) -> str:
-        return "\n".join(map(str, self.values)) or f"no critical value of {self.parameter} in the range"
+        told = "\n".join(map(str, self.values)) or f"no critical value of {self.parameter} in the range"
+        return told + (f"\n{left_out}" if (left_out := caveat(self.vehicle)) else "")
 
     def _repr_html_(self) -> str:
         from ..results import notebook

@@ -5,11 +5,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
+from ...core.numeric.compiled import compiled, direction
 from ..results.digits import decimal_text, rounded
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from ...core.contract.model import Model
     from .analyze import Analysis
     from .critical import Critical
 
@@ -26,6 +28,28 @@ def speed_text(speed: float) -> str:
     """
     on_the_road = speed * 3.6
     return f"{speed:.4g} m/s ({on_the_road:{'.0f' if 1000 <= abs(on_the_road) < 1e6 else '.3g'}} km/h)"
+
+
+def caveat(vehicle: Model) -> str:
+    """Return what a linear verdict leaves out where laws jump or bend on the basic motion; empty where none does."""
+    found = compiled(type(vehicle), direction(vehicle)).corners
+    jumps, kinks = ([where for kind, where in found if kind == wanted] for wanted in ("jump", "kink"))
+    told = []
+    if jumps:
+        told.append(
+            f"a law jumps on the basic motion, at {_zeros(jumps)}, where it has no slope: the verdict leaves the jump "
+            "out, and small motions may be held or driven by it"
+        )
+    if kinks:
+        told.append(
+            f"a law has a kink on the basic motion, at {_zeros(kinks)}: the verdict takes the slope of one side, of "
+            "abs that of neither, and the motion may do otherwise on the other"
+        )
+    return "; ".join(told)
+
+
+def _zeros(where: list[str]) -> str:
+    return ", ".join(f"{text} = 0" for text in where)
 
 
 def _two_digits(value: float) -> str:

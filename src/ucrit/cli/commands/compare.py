@@ -93,6 +93,8 @@ def _show(comparison: Comparison, found: list[Analysis]) -> None:
     for subject, one in zip(comparison.subjects, found, strict=True):
         page.line((subject.name, "bold"))
         page.paragraph(f"{one.sentence[:1].upper()}{one.sentence[1:]}.", indent=2)
+        if one.caveat:
+            page.paragraph(f"But {one.caveat}.", "yellow", indent=2)
     page.line()
     for line in str(comparison).splitlines():
         page.line(line)
