@@ -206,6 +206,8 @@ def __getattr__(name: str) -> Any:
         if attribute != name and attribute in _PUBLIC:  # another name for the same function
             return globals().setdefault(name, __getattr__(attribute))
         value = importlib.import_module("ucrit.core.asked").asked(value, name)
+    elif "__dataclass_fields__" in vars(value):
+        value = importlib.import_module("ucrit.core.asked").asked_class(value, name)
     return globals().setdefault(name, value)
 
 
