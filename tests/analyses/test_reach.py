@@ -104,3 +104,31 @@ def test_frequencies_beyond_doubles_are_refused():
     assert abs(frequency_response(car, "delta_f", "r", [1e300]).values).max() < 1e-290
     with pytest.raises(UcritError, match=r"the response at 1e\+308 Hz is beyond"):
         frequency_response(car, "delta_f", "r", [1.0, 1e308])
+
+
+def near_the_boundary(name, parameter):
+    """A vehicle two doubles on the stable side of a critical value, one two doubles beyond."""
+    vehicle = load(name)
+    edge = next(iter(critical(vehicle, parameter)))
+    values = [edge.value * (1 + 4e-16 * k) for k in range(-12, 13)]
+    return vehicle, values
+
+
+@pytest.mark.parametrize("name", ["caravan", "oversteering-car", "worn-wheelset"])
+def test_everything_tells_the_same_a_rounding_from_the_boundary(name):
+    """Rounded coefficients alone tell nothing here: all that give a verdict ask the one judge."""
+    from ucrit.analyses.regions.critical_many import _Block
+    from ucrit.analyses.stability.judge import judge
+    from ucrit.analyses.stability.remedies import _stable_now
+
+    speed = type(load(name)).declaration.speed
+    vehicle, values = near_the_boundary(name, speed)
+    grid = stability_map(vehicle, **{speed: values}).stable.tolist()
+    assert set(grid) == {True, False}
+    assert judge(vehicle.with_(**{speed: values})).tolist() == grid
+    each = [vehicle.with_(**{speed: x}) for x in values]
+    assert [_stable_now(one) for one in each] == grid
+    assert [bool(judge(one)) for one in each] == grid
+    key = next(n for n in vehicle.values if n != speed)
+    block = _Block(vehicle, {key: np.full(1, vehicle.values[key])}, 1)
+    assert block.judged(np.array([values]) / block.unit)[0].tolist() == grid

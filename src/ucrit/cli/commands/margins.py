@@ -41,8 +41,8 @@ def command(
 
     Exit status: 0 done; 2 wrong input.
     """
-    from ...analyses.linear.margins import driven_inputs, margins
     from ...analyses.regions.sweep import read_ranges
+    from ...analyses.stability.margins import driven_inputs, margins
     from ...core.errors import UcritError
     from ..output import to_stdout, writer, written
     from ..terminal import Page, terminal, vehicle_head
