@@ -17,8 +17,8 @@ from .compiled import coefficients, compiled, direction
 USUAL = 1e-60, 1e60
 """Sizes of parameters [SI] whose products in the equations of any vehicle stay within double numbers by far."""
 
-SPREAD = math.log(1e12)
-"""Logarithm of the ratio of eigenvalues above which the small ones may be rounding errors of the large ones."""
+SPREAD = math.log(1e24)
+"""Logarithm of the ratio of eigenvalues above which small ones are taken as lost; a vanishing cosine makes 1e16."""
 
 LOST = 0.01
 """Share by which the product of the eigenvalues may miss the one that the coefficients tell."""
