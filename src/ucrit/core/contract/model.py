@@ -13,6 +13,7 @@ one of three ways (argument names choose what is passed; ``x`` values, ``dx`` an
 ``possible(self)`` says what values of several parameters may be together (see `ucrit.core.contract.possible`).
 ``events(self, x, dx, ddx, u)`` returns what shall be noticed along the motion (see `ucrit.core.contract.events`),
 ``drawing(self, x, u)`` what the vehicle looks like (see `ucrit.core.contract.drawing`).
+Two further class attributes say what modes are called: ``mode_names`` and ``one_mode_each`` (see `Modes`).
 Any method named ``equations_<how>`` is a further derivation of the same vehicle, compared with the first; a bond graph,
 ``bond_graph(self, u)``, is one by `ucrit.bondgraph.equations_bond_graph`.
 """
@@ -23,13 +24,14 @@ import inspect
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
-from typing import Any, Self, dataclass_transform
+from typing import Any, ClassVar, Self, dataclass_transform
 
 import numpy as np
 
 from ..errors import ModelError, UcritError, near_match
 from ..made import made, reference, resolve
 from .declare import Input, Output, Parameter, Quantity, Variable, param, speed
+from .mode_names import check_mode_names
 from .part import Part, Slot
 from .possible import check_together
 from .tolerances import Tolerances
@@ -101,6 +103,8 @@ class Model:
 
     declaration: Declaration = Declaration({}, {}, {}, {})
     info: Info = Info()
+    mode_names: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    one_mode_each: ClassVar[bool] = False
     _values: Mapping[str, float | np.ndarray[Any, Any]]
     _shared: Mapping[str, str]
     _arguments: Mapping[str, tuple[str, ...]] = MappingProxyType(ARGUMENTS)
@@ -111,6 +115,8 @@ class Model:
         super().__init_subclass__(**options)
         cls.declaration = declared(cls)
         check_methods(cls)
+        if "mode_names" in vars(cls):
+            check_mode_names(cls.__name__, cls.mode_names, cls.declaration.variables.values())
         cls.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
             [
                 inspect.Parameter(
