@@ -32,6 +32,7 @@ class CarInertial(Model):
             "lateral divergence": "spin divergence",
             "yaw divergence": "spin divergence",
             "yaw angle": "heading",
+            "lateral speed": "heading",
         }
     )
 

@@ -21,7 +21,7 @@ class CartInertial(Model):
     y = coordinate("m", "lateral displacement of the centre of mass", motion="lateral")
     phi = coordinate("rad", "yaw angle of the cart", motion="yaw")
 
-    mode_names = MappingProxyType({"yaw angle": "heading"})
+    mode_names = MappingProxyType({"yaw angle": "heading", "lateral speed": "heading"})
 
     def kinetic_energy(self, x, dx):
         return self.m * (self.U**2 + dx.y**2) / 2 + self.I_z * dx.phi**2 / 2
