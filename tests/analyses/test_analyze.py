@@ -25,7 +25,8 @@ from ucrit.catalogue import vehicle_names
         (
             "caravan",
             {"upto": "-5 km/h"},
-            "unstable backing up at every speed to 1.389 m/s (5 km/h): the jackknife motion runs away, doubling in 2.1 s",
+            "unstable backing up at every speed to 1.389 m/s (5 km/h): the jackknife motion runs away, "
+            "doubling in 2.1 s",
         ),
         ("wheelset-1-in-20", {}, "neutral: the hunting at 1.67 Hz neither grows nor dies out"),
     ],
