@@ -187,7 +187,7 @@ class TestMap:
         assert len(paths[0]) == len(paths[1])
         for one, other in zip(*paths, strict=True):
             np.testing.assert_allclose(one, other)
-        assert "0.10" in [text.get_text() for text in drawn[0].texts]
+        assert "$\\zeta$ = 0.1" in [text.get_text() for text in drawn[0].texts]
 
 
 class TestDispatch:
