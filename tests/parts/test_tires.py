@@ -347,7 +347,7 @@ def test_scale_factors_and_roads():
         (lambda: EVERY["linear"].on_road(0.5), "linear: the law knows no friction"),
         (lambda: ucrit.tire("brush", C=-1), "cornering coefficient C must be above 0 N/rad"),
         (lambda: find_part("pacejca-205", Tire), "did you mean 'pacejka-205-60r15'"),
-        (lambda: ucrit.tire(3), "a tire is told by its name or file, got int"),
+        (lambda: ucrit.tire(3), "tire: name must be a text, got 3"),
     ],
 )
 def test_what_cannot_be_is_refused(wrong, message):

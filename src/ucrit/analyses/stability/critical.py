@@ -21,7 +21,7 @@ from ...core.contract.possible import allowed
 from ...core.errors import UcritError, near_match
 from ...core.numeric.compiled import compiled, direction
 from ...core.units import to_si
-from ..linear.modes import Mode, modes
+from ..linear.modes import Mode, mode_name, modes
 from ..results.convert import Series, Table, Tabular
 from .criteria import Boundary, criteria
 from .exact import exact_search
@@ -32,6 +32,8 @@ NEAR = 1e-9
 """Share of a critical value by which a root through infinity is looked at beside it."""
 LIGHT = 299_792_458.0
 """Speed of light [m/s]."""
+GOING = {"flutter": "oscillation", "divergence": "divergence"}
+"""How the mode goes that becomes unstable, by the kind of change."""
 Edge = tuple[float, set[str]]
 
 
@@ -70,8 +72,8 @@ class Critical:
 
     @property
     def motion(self) -> str:
-        """What flutters or diverges: ``lateral oscillation``, ``sideslip motion``."""
-        return re.sub(" divergence$", " motion", self.mode)
+        """What flutters or diverges: ``sway``, ``yaw oscillation``, ``spin motion``."""
+        return moving(self.mode)
 
     def __str__(self) -> str:
         at = f" at {self.frequency_hz:.4g} Hz" if self.frequency_hz else ""
@@ -236,7 +238,8 @@ def _describe(vehicle: Model, name: str, value: float, kinds: set[str], stable: 
     closed = _closed_form(vehicle, name, value, kind)
     frequency = mode.frequency_hz if kind == "flutter" else 0.0
     unit = type(vehicle).declaration.parameters[name].unit
-    return Critical(name, value, unit, kind, frequency, stable, _named_by(mode) + _going(kind), closed)
+    called = mode_name(type(vehicle), mode.motion, GOING.get(kind, "motion"))
+    return Critical(name, value, unit, kind, frequency, stable, called, closed)
 
 
 def _fastest_beside(vehicle: Model, name: str, value: float, stable: str) -> Mode:
@@ -256,13 +259,13 @@ def _closed_form(vehicle: Model, name: str, value: float, kind: str) -> Boundary
     return next((b for b in found if _matches(b, vehicle, value)), None)
 
 
-def _named_by(mode: Mode) -> str:
-    """Return the motion that a mode is named after: ``wheel`` of ``wheel decay 2``."""
-    return re.sub(r" \w+( \d+)?$", "", mode.name)
+def moving(name: str) -> str:
+    """Return what runs away by the name of a mode that does.
 
-
-def _going(kind: str) -> str:
-    return {"flutter": " oscillation", "divergence": " divergence"}.get(kind, " motion")
+    >>> moving("capsize divergence"), moving("swivel divergence 2")
+    ('capsize motion', 'swivel motion 2')
+    """
+    return re.sub(r" divergence( \d+)?$", r" motion\1", name)
 
 
 def crossing_mode(vehicle: Model) -> Mode:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from ...core.numeric.compiled import compiled, direction
 from ..results.digits import decimal_text, rounded
+from .critical import moving
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -87,12 +88,11 @@ def describe(analysis: Analysis, say: Callable[[float], str] = speed_text) -> st
 
 
 def _grows(c: Critical) -> str:
-    subject, _, _ = c.mode.rpartition(" ")
     if c.kind == "flutter":
-        return f"the {subject} oscillation grows at {c.frequency_hz:.2g} Hz (flutter)"
+        return f"the {c.motion} grows at {c.frequency_hz:.2g} Hz (flutter)"
     if c.kind == "divergence":
-        return f"the {subject} motion runs away (divergence)"
-    return f"the {subject} motion grows without bound"
+        return f"the {c.motion} runs away (divergence)"
+    return f"the {c.motion} grows without bound"
 
 
 def _growth(analysis: Analysis) -> str:
@@ -101,11 +101,10 @@ def _growth(analysis: Analysis) -> str:
     if not growing:
         return "some motion grows at a lower speed"
     mode = growing[0]
-    subject, _, _ = mode.name.rpartition(" ")
     if mode.oscillates:
-        how = f"the {subject} oscillation grows at {mode.frequency_hz:.2g} Hz"
+        how = f"the {mode.name} grows at {mode.frequency_hz:.2g} Hz"
     else:
-        how = f"the {subject} motion runs away"
+        how = f"the {moving(mode.name)} runs away"
     return f"{how}, doubling in {_two_digits(mode.time_to_double)} s"
 
 

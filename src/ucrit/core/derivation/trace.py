@@ -10,7 +10,8 @@ from typing import Any
 import sympy as sp
 
 from ..contract.declare import Parameter
-from ..contract.model import STATEMENTS, Model, Names, as_tuple, call
+from ..contract.methods import STATEMENTS, Names, as_tuple, call
+from ..contract.model import Model
 from ..errors import ModelError
 from ..formulas.settle import settled
 from .dimensions import check_dimensions
