@@ -9,7 +9,6 @@ given numbers; all their roots are isolated and counted exactly.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -26,7 +25,7 @@ from ..results.convert import Series, Table, Tabular
 from .criteria import Boundary, criteria
 from .exact import exact_search
 from .scan import scan
-from .wording import caveat
+from .wording import caveat, moving
 
 NEAR = 1e-9
 """Share of a critical value by which a root through infinity is looked at beside it."""
@@ -257,15 +256,6 @@ def _closed_form(vehicle: Model, name: str, value: float, kind: str) -> Boundary
         return None
     found = [b for c in conditions if c.failure == kind for b in c.boundaries if b.parameter == name]
     return next((b for b in found if _matches(b, vehicle, value)), None)
-
-
-def moving(name: str) -> str:
-    """Return what runs away by the name of a mode that does.
-
-    >>> moving("capsize divergence"), moving("swivel divergence 2")
-    ('capsize motion', 'swivel motion 2')
-    """
-    return re.sub(r" divergence( \d+)?$", r" motion\1", name)
 
 
 def crossing_mode(vehicle: Model) -> Mode:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING
 
 from ...core.numeric.compiled import compiled, direction
 from ..results.digits import decimal_text, rounded
-from .critical import moving
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -85,6 +85,15 @@ def describe(analysis: Analysis, say: Callable[[float], str] = speed_text) -> st
     if len(inside) > 1:
         told.append(f"there are {len(inside)} stable ranges")
     return "; ".join([text, ", ".join(told)]) + _position(analysis)
+
+
+def moving(name: str) -> str:
+    """Return what runs away by the name of a mode that does.
+
+    >>> moving("capsize divergence"), moving("swivel divergence 2")
+    ('capsize motion', 'swivel motion 2')
+    """
+    return re.sub(r" divergence( \d+)?$", r" motion\1", name)
 
 
 def _grows(c: Critical) -> str:
