@@ -12,7 +12,7 @@ found = ucrit.analyze(caravan)
 found
 
 # %%
-# The same as a picture: eigenvalues against speed, with the speed at which the lateral oscillation stops decaying.
+# The same as a picture: eigenvalues against speed, with the speed at which the sway stops decaying.
 
 before = ucrit.plot(found)
 

@@ -187,3 +187,21 @@ def test_paths_that_are_no_file(tmp_path: Path):
         found.to_csv(tmp_path)
     found.to_csv("/dev/null")
     assert Path("/dev/null").is_char_device()
+
+
+CLASSES = {
+    name: getattr(ucrit, name)
+    for name in ucrit._PUBLIC
+    if inspect.isclass(getattr(ucrit, name)) and "__dataclass_fields__" in vars(getattr(ucrit, name))
+}
+
+
+@pytest.mark.parametrize("name", CLASSES)
+def test_a_misspelt_argument_of_a_class_gets_a_near_match(name):
+    cls = CLASSES[name]
+    first = next(iter(inspect.signature(cls).parameters))
+    with pytest.raises(TypeError, match=rf"{name}\(\) has no argument '{first}x'; (did you mean|allowed:)"):
+        cls(**{f"{first}x": 1})
+    with pytest.raises(TypeError, match=rf"{name}\(\) lacks the argument"):
+        cls()
+    assert pickle.loads(pickle.dumps(cls)) is cls

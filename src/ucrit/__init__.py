@@ -20,7 +20,6 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.linear.forms import SecondOrder as SecondOrder
     from .analyses.linear.forms import StateSpace as StateSpace
     from .analyses.linear.forms import forms as forms
-    from .analyses.linear.margins import margins as margins
     from .analyses.linear.modes import modes as modes
     from .analyses.linear.percussion import percussion as percussion
     from .analyses.linear.response import frequency_response as frequency_response
@@ -68,6 +67,7 @@ if TYPE_CHECKING:  # the same names as in _PUBLIC, for type checkers and editors
     from .analyses.stability.critical import critical as critical
     from .analyses.stability.limits import limit as limit
     from .analyses.stability.locus import locus as locus
+    from .analyses.stability.margins import margins as margins
     from .analyses.stability.pitching import moment_line as moment_line
     from .analyses.stability.pitching import static_margin as static_margin
     from .analyses.stability.remedies import remedies as remedies
@@ -158,7 +158,7 @@ _PUBLIC: dict[str, str | tuple[str, str]] = {
     "rollover": "analyses.nonlinear.rollover",
     "routh": "analyses.stability.routh",
     "simulate": "analyses.motion.simulate",
-    "margins": "analyses.linear.margins",
+    "margins": "analyses.stability.margins",
     "simulate_delayed": "analyses.motion.delays",
     "describe_controller": "analyses.about.laws",
     "Step": "analyses.motion.manoeuvres",
@@ -206,6 +206,8 @@ def __getattr__(name: str) -> Any:
         if attribute != name and attribute in _PUBLIC:  # another name for the same function
             return globals().setdefault(name, __getattr__(attribute))
         value = importlib.import_module("ucrit.core.asked").asked(value, name)
+    elif "__dataclass_fields__" in vars(value):
+        value = importlib.import_module("ucrit.core.asked").asked_class(value, name)
     return globals().setdefault(name, value)
 
 

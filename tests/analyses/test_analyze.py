@@ -13,21 +13,22 @@ from ucrit.catalogue import vehicle_names
         (
             "caravan",
             {},
-            "stable up to 23.24 m/s (83.6 km/h); above it the lateral oscillation grows at 0.77 Hz (flutter)",
+            "stable up to 23.24 m/s (83.6 km/h); above it the sway grows at 0.77 Hz (flutter)",
         ),
         ("caravan", {"upto": "70 km/h", "changes": {"c": "4500 N m s/rad"}}, None),
         ("bmw-320i", {}, "stable at every speed up to 10 m/s (36 km/h), and at every higher one"),
         (
             "bmw-320i",
             {"upto": "144 km/h", "changes": {"C_r": "50 kN/rad"}},
-            "stable up to 22.37 m/s (80.5 km/h); above it the yaw motion runs away (divergence)",
+            "stable up to 22.37 m/s (80.5 km/h); above it the spin motion runs away (divergence)",
         ),
         (
             "caravan",
             {"upto": "-5 km/h"},
-            "unstable backing up at every speed to 1.389 m/s (5 km/h): the yaw motion runs away, doubling in 2.1 s",
+            "unstable backing up at every speed to 1.389 m/s (5 km/h): the jackknife motion runs away, "
+            "doubling in 2.1 s",
         ),
-        ("wheelset-1-in-20", {}, "neutral: the lateral oscillation at 1.67 Hz neither grows nor dies out"),
+        ("wheelset-1-in-20", {}, "neutral: the hunting at 1.67 Hz neither grows nor dies out"),
     ],
 )
 def test_the_verdict_in_words(vehicle, options, sentence):

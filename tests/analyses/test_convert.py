@@ -55,7 +55,7 @@ def test_xarray_finds_values_by_name():
     assert float(picked.eigenvalue_real) == next(m for m in found if m.name == "yaw oscillation").eigenvalue.real
     assert float(picked.participation.sum()) == pytest.approx(1)
     curve = locus(load("caravan"), points=20).to_xarray()
-    assert curve.eigenvalue_imag.sel(mode="lateral oscillation").dims == ("U",)
+    assert curve.eigenvalue_imag.sel(mode="sway").dims == ("U",)
     assert curve.U.attrs["units"] == "m/s"
 
 

@@ -276,7 +276,7 @@ SIMULATED = """
 import numpy as np
 from ucrit import find_model, load, stability_map
 from ucrit.analyses.stability import device
-from ucrit.core import kernels
+from ucrit.core.numeric import kernels
 
 kernels.THREADS, device.PIECE = 4, 5
 caravan, truck = load("caravan"), load("coach-truck")

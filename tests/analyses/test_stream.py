@@ -216,3 +216,18 @@ def test_a_scheduler_that_dies_leaves_what_is_done(tmp_path, monkeypatch):
     assert len(before) >= 5
     assert_same(stream(CARAVAN, store, kind="sweep", chunk=11, **RANGES), expected("sweep"))
     assert before.items() <= stamps(store, "chunk_done").items()
+
+
+def test_a_store_makes_no_folders_on_its_way_like_other_files(tmp_path):
+    for write in (
+        lambda path: stream(CARAVAN, f"{path}.zarr", U=[10, 20]),
+        lambda path: stability_map(CARAVAN, U=[10, 20]).to_csv(f"{path}.csv"),
+    ):
+        with pytest.raises(UcritError, match="cannot be written: No such file or directory"):
+            write(tmp_path / "none" / "x")
+    assert not (tmp_path / "none").exists()
+
+
+def test_an_address_that_dask_cannot_have_is_refused_in_a_sentence(tmp_path):
+    with pytest.raises(UcritError, match=r"a scheduler's address is written such as tcp://10.0.0.1:8786, got 'x'"):
+        stream(CARAVAN, tmp_path / "x.zarr", client="x", U=[10, 20])

@@ -44,7 +44,7 @@ def test_analyze_tells_everything(run: Run) -> None:
     assert found.sentence[1:] in flat
     for mode in found.modes:
         assert mode.name in flat
-    assert "flutter of the lateral oscillation at 0.7691 Hz" in flat
+    assert "flutter of the sway at 0.7691 Hz" in flat
     compact = "".join(text.split())
     for criterion in found.failing:
         assert "".join(str(criterion).split()) in compact

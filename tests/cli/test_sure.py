@@ -82,3 +82,22 @@ def test_wrong_input_is_one_sentence(run, words, message):
     assert done.exit_code == 2
     assert message in done.stderr
     assert done.stderr.count("\n") == 1
+
+
+def test_both_ends_of_a_region_have_as_many_digits(run):
+    told = " ".join(run("certify", "caravan", "U=20:50 km/h").stdout.split())
+    assert "Stable for every U from 5.55556 to 13.8889 m/s (20 to 50 km/h): proved" in told
+    refuted = run("certify", "caravan", "U=20:190 km/h").stdout
+    assert "+-" not in refuted
+    assert "eigenvalue 0.4821 ± 4.53j 1/s" in refuted
+
+
+def test_decimals_of_criteria_are_short_on_the_screen_and_whole_in_the_data(run):
+    import json
+    import re
+
+    long = re.compile(r"\d\.\d{9,}")
+    told = run("analyze", "benchmark-bicycle").stdout
+    assert not long.search(told)
+    criteria = json.loads(run("analyze", "benchmark-bicycle", "--json").stdout)["criteria"]
+    assert any(long.search(c["condition"]) for c in criteria)

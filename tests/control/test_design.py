@@ -156,3 +156,13 @@ def test_a_motion_that_cannot_be_moved_may_stay_where_it_is():
 def test_what_is_not_possible_is_refused(wrong, message):
     with pytest.raises(UcritError, match=message):
         wrong()
+
+
+def test_an_observer_with_values_of_its_own_that_trim_otherwise_is_told_which():
+    airplane, poles = load("navion-from-geometry"), [-5, -6, -7, -8]
+    for own in (["m"], ["m", "I_yy"]):
+        with pytest.raises(
+            UcritError, match="with m_hat of its own a controller has another basic motion than the veh"
+        ):
+            ucrit.modes(observer(airplane, ["q", "theta"], poles, own=own))
+    assert len(ucrit.modes(observer(airplane, ["q", "theta"], poles, own=["I_yy"])).eigenvalues) == 8

@@ -33,7 +33,7 @@ def test_inertial_coordinates_have_two_positions_that_are_recognised():
     car = load("oversteering-car-on-the-road")
     found = verdict(car)
     assert (found.rigid_positions, found.stable) == (2, True)
-    assert sum(mode.name.endswith("position") for mode in modes(car)) == 2
+    assert {mode.name for mode in modes(car) if mode.eigenvalue == 0} == {"lateral position", "heading"}
     body = modes(load("oversteering-car")).eigenvalues
     assert modes(car).eigenvalues[2:] == pytest.approx(body, rel=1e-12)
 
@@ -106,10 +106,10 @@ def test_released_wheel_weaves_where_the_held_one_does_not():
     released, held = load("released-steering-wheel"), load("understeering-car")
     assert len(critical(held)) == 0
     (found,) = critical(released)
-    assert (found.kind, found.stable, found.mode) == ("flutter", "below", "weave oscillation")
+    assert (found.kind, found.stable, found.mode) == ("flutter", "below", "weave")
     assert 0.5 < found.frequency_hz < 2
     slow = next(iter(modes(released)))
-    assert slow.name == "weave oscillation"
+    assert slow.name == "weave"
     assert 0 < slow.damping_ratio < next(iter(modes(held))).damping_ratio
 
 
@@ -164,7 +164,7 @@ def test_the_trailer_takes_speed_from_the_car():
     car, both = load("understeering-car"), load("car-and-caravan")
     assert len(critical(car)) == 0
     (found,) = critical(both)
-    assert (found.kind, found.stable, found.mode) == ("flutter", "below", "trailer oscillation")
+    assert (found.kind, found.stable, found.mode) == ("flutter", "below", "sway")
     longer = both.with_(I_t=3500)
     damped = longer.with_(c=3000)
     assert critical(longer)[0].value < found.value

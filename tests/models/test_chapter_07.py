@@ -119,7 +119,7 @@ def test_poles_and_zeros(seed):
 def test_no_two_wheeler_is_stable_by_itself():
     assert criteria(find_model("lean")).settled is False
     names = {mode.name for mode in modes(load("motorcycle-lean"))}
-    assert names == {"lean divergence", "lean decay"}
+    assert names == {"capsize divergence", "lean decay"}
 
 
 def test_benchmark_bicycle_has_the_published_mass_and_stiffness():

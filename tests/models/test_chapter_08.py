@@ -64,7 +64,7 @@ def test_vertical_pivot_eigenvalues(seed):
 
 @pytest.mark.parametrize("seed", SEEDS)
 def test_rake_turns_the_wheel_like_a_hooke_joint_and_tilts_it(seed):
-    from ucrit.core.contract.model import Names
+    from ucrit.core.contract.methods import Names
 
     fork = varied(load("motorcycle-front-fork"), seed)
     x = Names("x", {"theta": 0.02 * (seed + 1)})

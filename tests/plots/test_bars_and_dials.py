@@ -68,7 +68,7 @@ class TestModes:
 
     def test_amplitude_phase_and_unit_are_written(self, caravan):
         written = "\n".join(texts(plots.plot_mode_shapes(modes(caravan).list(), caravan)))
-        assert "lateral oscillation, 0.755 Hz" in written
+        assert "sway, 0.755 Hz" in written
         assert "$x$  1\N{NO-BREAK SPACE}m\n0°" in written
         assert "$θ$  0.408\N{NO-BREAK SPACE}rad\n\N{MINUS SIGN}135°" in written
 

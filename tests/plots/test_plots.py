@@ -68,7 +68,7 @@ class TestRootLocus:
 
     def test_legend_names_modes_and_speed(self, path, speeds):
         named = legend_texts(plots.plot_locus(path, critical=speeds))
-        assert named[:2] == ["lateral oscillation", "yaw oscillation"]
+        assert named[:2] == ["sway", "yaw oscillation"]
         assert "$U$ = 27.78\N{NO-BREAK SPACE}m/s" in named
         assert "critical" in named
         assert "critical" not in legend_texts(plots.plot_locus(path))
@@ -187,14 +187,14 @@ class TestMap:
         assert len(paths[0]) == len(paths[1])
         for one, other in zip(*paths, strict=True):
             np.testing.assert_allclose(one, other)
-        assert "0.10" in [text.get_text() for text in drawn[0].texts]
+        assert "$\\zeta$ = 0.1" in [text.get_text() for text in drawn[0].texts]
 
 
 class TestDispatch:
     def test_each_result_gets_its_drawing(self, caravan):
         assert len(plot(analyze(caravan)).subfigs) == 2
         assert len(plot(locus(caravan, points=30)).subfigs) == 2
-        assert "lateral oscillation, 0.755 Hz" in texts(plot(modes(caravan)))
+        assert "sway, 0.755 Hz" in texts(plot(modes(caravan)))
         assert find(plot(remedies(caravan)), "bar-a")
         assert "stable" in texts(plot(stability_map(caravan, U=[10.0, 20, 30], a=[2.0, 3, 4])))
 
@@ -212,7 +212,7 @@ class TestDispatch:
         assert "[N m]" in plot(moment_line(load("model-glider"))).axes[0].get_ylabel().replace("·", " ")
 
     def test_a_vehicle_without_speed_shows_its_modes(self):
-        assert "lateral oscillation, 1.67 Hz" in texts(plot(analyze("wheelset-1-in-20")))
+        assert "hunting, 1.67 Hz" in texts(plot(analyze("wheelset-1-in-20")))
 
     def test_other_things_are_refused(self, caravan):
         with pytest.raises(UcritError, match="no drawing for Sweep"):

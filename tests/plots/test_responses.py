@@ -38,5 +38,5 @@ def test_margins_find_the_only_driven_input_and_ask_where_there_are_two():
 
 
 def test_range_of_a_locus_that_is_no_number_is_refused():
-    with pytest.raises(UcritError, match="two ends, each a number, got ndarray"):
+    with pytest.raises(UcritError, match="lower must be a number or a text, got array"):
         locus(load("caravan"), "U", np.linspace(10, 20, 3))

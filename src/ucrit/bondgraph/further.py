@@ -10,7 +10,7 @@ from typing import Any
 
 import sympy as sp
 
-from ..core.contract.model import Names
+from ..core.contract.methods import Names
 from ..core.errors import ModelError
 from .algebra import put_together
 from .assignments import Store, assignments, effort, flow

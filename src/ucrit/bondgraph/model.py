@@ -6,8 +6,10 @@ import re
 from collections.abc import Mapping
 from typing import Any
 
+from ..core.contract.collect import declared
 from ..core.contract.declare import Variable
-from ..core.contract.model import Model, Names, call, check_methods, declared, is_current
+from ..core.contract.methods import Names, call, check_methods, is_current
+from ..core.contract.model import Model
 from ..core.errors import ModelError
 from ..core.made import made
 from .graph import Graph
@@ -158,7 +160,7 @@ def graph_of(model: type[Model], direction: int | None = 1) -> Graph:
 
     if not states_bond_graph(model):
         raise ModelError(f"{model.model_id()} states no bond graph: a method 'bond_graph(self, u)' would")
-    parts = declared(model)
+    parts = declared(model, Model)
     symbols = {name: parameter_symbol(p, direction) for name, p in parts.parameters.items()}
     return _graph(symbolic_instance(model, symbols), {"u": Names("u", input_symbols(parts.inputs))})
 
@@ -195,7 +197,7 @@ def _declare_states(cls: type[Model]) -> None:
     from .equations import state_equations
     from .units import state_units
 
-    parts = declared(cls)
+    parts = declared(cls, Model)
     graph = graph_of(cls, None)
     inputs = input_symbols(parts.inputs)
     found = state_equations(graph, tuple(inputs.values()))

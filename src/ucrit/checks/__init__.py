@@ -52,7 +52,7 @@ def check_model(
     >>> report.ok
     True
     >>> print(report.checks[1])
-    pass  equations: 1 equations with matching units, solved by the basic motion
+    pass  equations: 1 equation with matching units, solved by the basic motion
     """
     named, vehicle = resolve(model)
     subject = Subject.of(named if vehicle is None else vehicle, seed, None if published is None else Path(published))

@@ -17,7 +17,8 @@ from ..bondgraph.equations import StateEquations, state_equations
 from ..bondgraph.further import graph_states
 from ..bondgraph.model import BondGraphModel, graph_of, states_bond_graph
 from ..bondgraph.power import power_balance
-from ..core.contract.model import Model, Names
+from ..core.contract.methods import Names
+from ..core.contract.model import Model
 from ..core.derivation.derive import symbolic
 from ..core.errors import UcritError
 from .precise import DIGITS, same_up_to_factor

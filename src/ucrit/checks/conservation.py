@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 import sympy as sp
 
-from ..core.contract.model import as_tuple, call
+from ..core.contract.methods import as_tuple, call
 from ..core.derivation.trace import Traced, symbolic_instance
 from ..core.formulas.codegen import build, generate
 from .report import FailedCheckError, NotApplicableError

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
+from typing import Any
 
 from ..core.errors import ModelError
 from ..core.html import Rich
@@ -67,6 +68,10 @@ class Report(Rich):
     def _summary(self) -> str:
         applied = sum(check.passed is not None for check in self.checks)
         return f"{len(self.failed)} of {applied} checks failed" if self.failed else f"{applied} checks passed"
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the outcome as plain data."""
+        return {"model": self.model, "ok": self.ok, "checks": [asdict(check) for check in self.checks]}
 
     def __str__(self) -> str:
         return "\n".join([f"{self.model}: {self._summary}", *map(str, self.checks)])

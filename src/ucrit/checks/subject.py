@@ -12,7 +12,8 @@ from typing import Any
 import numpy as np
 
 from ..catalogue import PUBLISHED
-from ..core.contract.model import Model, Names, is_current
+from ..core.contract.methods import Names, is_current
+from ..core.contract.model import Model
 from ..core.derivation.derive import symbolic
 from ..core.derivation.linear import LinearSystem
 from ..core.derivation.trace import Traced, trace

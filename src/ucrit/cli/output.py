@@ -6,10 +6,24 @@ import sys
 from collections.abc import Callable, Mapping
 from typing import Any
 
+import click
+
 TABLES = {".csv": "to_csv", ".nc": "to_netcdf", ".json": "to_json", ".mat": "to_mat"}
 PICTURES = (".png", ".svg", ".pdf")
 
 Write = Callable[[Any], None]
+
+json_option = click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
+"""The option of every command that answers; `print_json` is what it does."""
+
+
+def print_json(answer: Any) -> None:
+    """Print a result, or a dictionary, as one object of strict JSON; tables, which may be long, in one line."""
+    import json
+
+    content = answer if isinstance(answer, dict) else answer.to_dict()
+    indent = None if "variables" in content and "coordinates" in content else 2
+    click.echo(json.dumps(content, indent=indent, allow_nan=False, ensure_ascii=False))
 
 
 def written(path: str) -> None:

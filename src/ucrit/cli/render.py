@@ -10,7 +10,7 @@ from ..analyses.stability.advice import advice
 from ..analyses.stability.criteria import in_words
 from ..analyses.stability.wording import speed_text
 from .terminal import Page, vehicle_head
-from .wrap import number, shorten
+from .wrap import number, short_numbers, shorten
 
 if TYPE_CHECKING:
     from rich.console import Console
@@ -57,6 +57,8 @@ def _verdict(page: Page, found: Analysis) -> None:
     page.line((word, f"bold {colour}"), (at, "bold"))
     sentence = found.sentence
     page.paragraph(sentence[:1].upper() + sentence[1:] + ".")
+    if found.caveat:
+        page.paragraph(f"But {found.caveat}.", "yellow")
     if found.audit is not None:
         page.paragraph(f"Audit: {found.audit.sentence}.", "" if found.audit.agrees else "bold red")
 
@@ -142,12 +144,12 @@ def _criteria(page: Page, found: Analysis) -> None:
         page.heading("Stability needs, and it fails" + ("" if found.speed is None else " at this speed"))
         for c in found.failing:
             page.line("  ", (f"{c.name}, against {_failure(c.failure)}", "red"))
-            page.formula(str(c), indent=6, most=CRITERION_LINES)
+            page.formula(short_numbers(str(c)), indent=6, most=CRITERION_LINES)
     if holding:
         page.heading("Stability needs, and it holds" + ("" if found.speed is None else " at this speed"))
         names = max(len(c.name) for c in holding)
         for c in holding:
-            page.line("  " + shorten(f"{c.name:<{names}}  {c}", page.width - 2))
+            page.line("  " + shorten(short_numbers(f"{c.name:<{names}}  {c}"), page.width - 2))
 
 
 def in_few(found: Criteria, why: str) -> str:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from ..core.contract.tolerances import Tolerances
 from .render import in_few
 from .terminal import Page, vehicle_head
-from .wrap import number, shorten
+from .wrap import number, short_numbers, shorten
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -196,7 +196,7 @@ def _criteria(page: Page, found: ModelDescription) -> None:
     else:
         for c in found.criteria:
             page.line("  ", (f"{c.name} (else {c.failure})", "dim"))
-            page.formula(str(c), indent=4)
+            page.formula(short_numbers(str(c)), indent=4)
 
 
 def show_report(console: Console, report: Report) -> None:

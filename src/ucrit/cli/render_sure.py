@@ -68,7 +68,7 @@ def show_certificate(console: Console, found: Certificate) -> None:
     word, colour = WORDS[found.state]
     page.line()
     page.line((word, f"bold {colour}"))
-    sentence = found.sentence
+    sentence = found.sentence.replace("±", page.plus_minus)
     page.paragraph(sentence[:1].upper() + sentence[1:] + ".")
     if found.counterexample is not None:
         page.heading("Eigenvalues there [1/s]")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Sequence
 
 from ..analyses.results.digits import decimal_text, rounded
@@ -72,3 +73,12 @@ def number(value: float, digits: int = DIGITS) -> str:
     if not math.isfinite(value):
         return f"{value:g}"
     return decimal_text(rounded(value, digits, 0))
+
+
+def short_numbers(formula: str) -> str:
+    """Return a formula with its decimals in six digits, for reading; whole numbers stay.
+
+    >>> short_numbers("g - 0.2703094957173532*U**2 + 1.0862813934647584e-11*c > 100440")
+    'g - 0.270309*U**2 + 1.08628e-11*c > 100440'
+    """
+    return re.sub(r"(?<![\w.])\d+\.\d+(?:e[-+]?\d+)?", lambda found: f"{float(found[0]):.6g}", formula)

@@ -86,6 +86,7 @@ def close_once(plant: type[Model], controller: type[Controller]) -> type[Model]:
     body |= {"sides": (*getattr(plant, "sides", ()), *getattr(controller, "sides", ()))}
     body |= {"twins": {**getattr(plant, "twins", {}), **getattr(controller, "twins", {})}}
     body |= {name: getattr(plant, name) for name in ("keeps_speed", "wheel_loads", "valid") if hasattr(plant, name)}
+    body |= {"mode_names": plant.mode_names}
     body |= methods(plant, controller)
     return type(f"{plant.__name__}With{controller.__name__}", (ClosedLoop,), body)
 

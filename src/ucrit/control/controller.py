@@ -5,7 +5,8 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import ClassVar
 
-from ..core.contract.model import ARGUMENTS, Model
+from ..core.contract.methods import ARGUMENTS
+from ..core.contract.model import Model
 
 SEEN = ("x", "dx", "ddx", "u", "y", "x0", "u0")
 """What a law may ask for: variables and derivatives of vehicle and controller, inputs that are left, outputs of the

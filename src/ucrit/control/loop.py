@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from functools import cache
 from typing import TYPE_CHECKING, Any
 
-from ..core.contract.model import Model, Names, as_tuple, call
+from ..core.contract.methods import Names, as_tuple, call
+from ..core.contract.model import Model
 from ..core.errors import ModelError
 from .controller import Controller
 

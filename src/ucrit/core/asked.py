@@ -59,9 +59,41 @@ def asked(function: Callable[..., Any], name: str) -> Callable[..., Any]:
     return ask
 
 
+def asked_class(cls: type, name: str) -> type:
+    """Let a public class refuse names of arguments that it does not have, as `asked` does; its values it checks itself.
+
+    >>> from dataclasses import dataclass
+    >>> @dataclass
+    ... class Push: size: float
+    >>> asked_class(Push, "Push")(sise=3)
+    Traceback (most recent call last):
+    TypeError: Push() has no argument 'sise'; did you mean 'size'?
+    """
+    make = cls.__init__  # type: ignore[misc]
+
+    @wraps(make)
+    def init(self: Any, *args: Any, **named: Any) -> None:
+        if type(self) is cls:
+            _refuse_names(cls, name, args, named)
+        make(self, *args, **named)
+
+    cls.__init__ = init  # type: ignore[misc]
+    return cls
+
+
 def _checked(
     function: Callable[..., Any], name: str, args: tuple[Any, ...], named: dict[str, Any]
 ) -> tuple[tuple[Any, ...], dict[str, Any]]:
+    _refuse_names(function, name, args, named)
+    declared, several, rest = _parameters(function)
+    by_name = {p.name: p for p in declared if p.kind is not p.POSITIONAL_ONLY}
+    places = [p for p in declared if p.kind is not p.KEYWORD_ONLY]
+    one_by_one = tuple(_read(name, places[i] if i < len(places) else several, value) for i, value in enumerate(args))
+    return one_by_one, {key: _read(name, by_name.get(key, rest), value, key) for key, value in named.items()}
+
+
+def _refuse_names(function: Callable[..., Any], name: str, args: tuple[Any, ...], named: dict[str, Any]) -> None:
+    """Refuse arguments that are too many, unknown or lacking."""
     declared, several, rest = _parameters(function)
     if len(args) > len(declared) and several is None:
         most = sum(p.kind is not p.KEYWORD_ONLY for p in declared)
@@ -69,7 +101,6 @@ def _checked(
     for key in named:
         if rest is None and key not in {p.name for p in declared}:
             raise TypeError(f"{name}() has no argument '{key}'{near_match(key, [p.name for p in declared])}")
-    by_name = {p.name: p for p in declared if p.kind is not p.POSITIONAL_ONLY}
     places = [p for p in declared if p.kind is not p.KEYWORD_ONLY]
     lacking = [
         p.name
@@ -78,8 +109,6 @@ def _checked(
     ]
     if lacking:
         raise TypeError(f"{name}() lacks the argument '{lacking[0]}'")
-    one_by_one = tuple(_read(name, places[i] if i < len(places) else several, value) for i, value in enumerate(args))
-    return one_by_one, {key: _read(name, by_name.get(key, rest), value, key) for key, value in named.items()}
 
 
 @cache

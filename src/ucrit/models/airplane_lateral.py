@@ -5,6 +5,8 @@ Each derivative is that of a force or moment on the airplane with respect to the
 and height it was measured or computed for.
 """
 
+from types import MappingProxyType
+
 from ..core import Drawing, Model, cos, input, param, state, tan
 from ..parts.shapes import airplane_rear, radius_of_gyration
 
@@ -39,6 +41,7 @@ class AirplaneLateral(Model):
     N = input("N m", "further yawing moment, from ailerons, rudder or gust")
 
     one_mode_each = True
+    mode_names = MappingProxyType({"roll decay": "roll subsidence"})
 
     def possible(self):
         return {"I_xz must lie between -sqrt(I_x I_z) and sqrt(I_x I_z)": self.I_xz**2 < self.I_x * self.I_z}

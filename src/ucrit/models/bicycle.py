@@ -45,8 +45,8 @@ class Bicycle(Model):
 
     mode_names = MappingProxyType(
         {
-            "roll oscillation": "weave oscillation",
-            "steer oscillation": "weave oscillation",
+            "roll oscillation": "weave",
+            "steer oscillation": "weave",
             "roll decay": "capsize decay",
             "roll divergence": "capsize divergence",
             "steer decay": "castering decay",

@@ -3,6 +3,8 @@
 Slip angles are those of the tires' contact points to their wheels' planes; steer angles positive to the right.
 """
 
+from types import MappingProxyType
+
 from ..bondgraph import Graph, Sf, bodies, equations_bond_graph, f, running_gear
 from ..core import Drawing, Model, cos, input, output, param, speed, state
 from ..parts.shapes import car
@@ -22,6 +24,14 @@ class Car(Model):
 
     V = state("m/s", "lateral velocity of the centre of mass", motion="sideslip")
     r = state("rad/s", "yaw rate", motion="yaw")
+
+    mode_names = MappingProxyType(
+        {
+            "sideslip oscillation": "yaw oscillation",
+            "sideslip divergence": "spin divergence",
+            "yaw divergence": "spin divergence",
+        }
+    )
 
     delta_f = input("rad", "front steer angle")
     delta_r = input("rad", "rear steer angle")

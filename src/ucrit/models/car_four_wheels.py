@@ -59,6 +59,14 @@ class CarFourWheels(Model):
     omega_rl = state("rad/s", "spin of the rear left wheel", motion="wheel")
     omega_rr = state("rad/s", "spin of the rear right wheel", motion="wheel")
 
+    mode_names = MappingProxyType(
+        {
+            "sideslip oscillation": "yaw oscillation",
+            "sideslip divergence": "spin divergence",
+            "yaw divergence": "spin divergence",
+        }
+    )
+
     delta_f = input("rad", "front steer angle")
     delta_r = input("rad", "rear steer angle")
     drive = input("N m", "drive torque on all wheels together, by open differentials")

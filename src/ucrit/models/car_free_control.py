@@ -6,6 +6,8 @@ axis, which meets the road a length e ahead of the point where the front side fo
 I_s to I_z.
 """
 
+from types import MappingProxyType
+
 from ..core import Drawing, Model, coordinate, cos, input, output, param, sin, speed, state
 from ..parts.shapes import car
 from ..parts.tires import linear_side_force, slip_angle
@@ -26,9 +28,18 @@ class CarFreeControl(Model):
     k_s: float = param("N m/rad", "stiffness that centres the steering, or of a held steering column", at_least=0)
     U: float = speed("forward speed")
 
-    V = state("m/s", "lateral velocity of the centre of mass", motion="weave")
-    r = state("rad/s", "yaw rate", motion="weave")
+    V = state("m/s", "lateral velocity of the centre of mass", motion="sideslip")
+    r = state("rad/s", "yaw rate", motion="yaw")
     delta = coordinate("rad", "front steer angle", motion="steering")
+
+    mode_names = MappingProxyType(
+        {
+            "sideslip oscillation": "weave",
+            "yaw oscillation": "weave",
+            "sideslip divergence": "spin divergence",
+            "yaw divergence": "spin divergence",
+        }
+    )
 
     tau = input("N m", "torque about the steer axis, from the driver or an actuator, positive to the right")
 

@@ -29,6 +29,14 @@ class CarHandling(Model):
     V = state("m/s", "lateral velocity of the centre of mass", motion="sideslip")
     r = state("rad/s", "yaw rate", motion="yaw")
 
+    mode_names = MappingProxyType(
+        {
+            "sideslip oscillation": "yaw oscillation",
+            "sideslip divergence": "spin divergence",
+            "yaw divergence": "spin divergence",
+        }
+    )
+
     delta_f = input("rad", "front steer angle")
     delta_r = input("rad", "rear steer angle")
 

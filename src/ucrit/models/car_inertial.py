@@ -5,6 +5,8 @@ The centre of mass runs along X with constant speed U; steer angles are relative
 right.
 """
 
+from types import MappingProxyType
+
 from ..core import Drawing, Model, coordinate, cos, input, param, sin, speed
 from ..parts.shapes import car
 from ..parts.tires import linear_side_force, slip_angle
@@ -23,6 +25,16 @@ class CarInertial(Model):
 
     y = coordinate("m", "lateral position of the centre of mass", motion="lateral")
     psi = coordinate("rad", "yaw angle", motion="yaw")
+
+    mode_names = MappingProxyType(
+        {
+            "lateral oscillation": "yaw oscillation",
+            "lateral divergence": "spin divergence",
+            "yaw divergence": "spin divergence",
+            "yaw angle": "heading",
+            "lateral speed": "heading",
+        }
+    )
 
     delta_f = input("rad", "front steer angle")
     delta_r = input("rad", "rear steer angle")

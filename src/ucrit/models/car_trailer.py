@@ -4,6 +4,8 @@ theta is the trailer's yaw angle to the car, positive when its rear swings to th
 forward speed.
 """
 
+from types import MappingProxyType
+
 from ..core import Drawing, Model, coordinate, cos, input, output, param, sin, speed, state
 from ..parts.shapes import car, trailer
 from ..parts.tires import linear_side_force, slip_angle
@@ -30,6 +32,16 @@ class CarTrailer(Model):
     V = state("m/s", "lateral velocity of the car's centre of mass", motion="sideslip")
     r = state("rad/s", "yaw rate of the car", motion="yaw")
     theta = coordinate("rad", "articulation angle", motion="trailer")
+
+    mode_names = MappingProxyType(
+        {
+            "trailer oscillation": "sway",
+            "sideslip oscillation": "yaw oscillation",
+            "trailer divergence": "jackknife divergence",
+            "sideslip divergence": "jackknife divergence",
+            "yaw divergence": "jackknife divergence",
+        }
+    )
 
     delta_f = input("rad", "front steer angle")
 

@@ -4,6 +4,8 @@ The centre of mass moves along X with speed U; the fixed rear axle lies b behind
 freely.
 """
 
+from types import MappingProxyType
+
 from ..core import Drawing, Model, coordinate, cos, param, sin, speed
 from ..parts.shapes import shopping_cart
 
@@ -18,6 +20,8 @@ class CartInertial(Model):
 
     y = coordinate("m", "lateral displacement of the centre of mass", motion="lateral")
     phi = coordinate("rad", "yaw angle of the cart", motion="yaw")
+
+    mode_names = MappingProxyType({"yaw angle": "heading", "lateral speed": "heading"})
 
     def kinetic_energy(self, x, dx):
         return self.m * (self.U**2 + dx.y**2) / 2 + self.I_z * dx.phi**2 / 2

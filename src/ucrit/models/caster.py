@@ -4,6 +4,8 @@ theta is positive when the wheel swings to the left; the wheel touches the road 
 trail. The motion is that of a trailer on a rigid hitch.
 """
 
+from types import MappingProxyType
+
 from ..core import Drawing, coordinate, param, speed
 from ..parts.shapes import caster
 from .trailer_rigid_hitch import TrailerRigidHitch
@@ -20,6 +22,8 @@ class Caster(TrailerRigidHitch):
     U: float = speed("speed of the pivot", reverse=True)
 
     theta = coordinate("rad", "swivel angle", motion="swivel")
+
+    mode_names = MappingProxyType({"swivel oscillation": "shimmy"})
 
     def drawing(self, x):
         return Drawing("top", caster(self.a + self.b, angle=-x.theta), travel=(self.U, 0, 0))

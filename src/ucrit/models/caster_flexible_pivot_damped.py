@@ -4,6 +4,8 @@ theta is positive when the wheel swings to the left; the wheel touches the road 
 trail. The motion is that of a trailer on a flexible hitch.
 """
 
+from types import MappingProxyType
+
 from ..core import Drawing, coordinate, param, speed
 from ..parts.shapes import caster
 from .trailer import Trailer
@@ -23,6 +25,8 @@ class CasterFlexiblePivotDamped(Trailer):
 
     x = coordinate("m", "lateral displacement of the pivot", motion="lateral")
     theta = coordinate("rad", "swivel angle", motion="swivel")
+
+    mode_names = MappingProxyType({"lateral oscillation": "shimmy", "swivel oscillation": "shimmy"})
 
     def drawing(self, x):
         return Drawing("top", caster(self.a + self.b, (0, x.x), -x.theta), travel=(self.U, 0, 0))

@@ -5,6 +5,7 @@ asks for a slip angle of k_s z/C, which must be less than a right angle; a motio
 """
 
 import math
+from types import MappingProxyType
 
 from ..bondgraph import equations_bond_graph, running_gear
 from ..core import event, param, state, tan
@@ -18,6 +19,8 @@ class CasterFlexibleSidewall(Caster):
     k_s: float = param("N/m", "lateral stiffness of the tire's sidewall", above=0)
 
     z = state("m", "lateral deflection of the sidewall", motion="sidewall")
+
+    mode_names = MappingProxyType({"swivel oscillation": "shimmy", "sidewall oscillation": "shimmy"})
 
     def forces(self, x, dx):
         lateral, _ = self.axle_velocity(x, dx)

@@ -1,5 +1,7 @@
 """Axes and signs as in the caster; F is positive to the wheel's left. SI units and radians."""
 
+from types import MappingProxyType
+
 from ..core import param, state
 from ..parts.relaxation import force_lag
 from ..parts.tires import linear_side_force, slip_angle
@@ -12,6 +14,8 @@ class CasterRelaxation(Caster):
     sigma: float = param("m", "relaxation length of the tire", above=0)
 
     F = state("N", "side force on the wheel", motion="side force")
+
+    mode_names = MappingProxyType({"swivel oscillation": "shimmy", "side force oscillation": "shimmy"})
 
     def forces(self, x, dx):
         lateral, _ = self.axle_velocity(x, dx)

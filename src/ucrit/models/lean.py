@@ -7,6 +7,8 @@ equations hold the steer angles, not their rates, and a steer angle may jump. A 
 turn the vehicle on the spot: a motion ends there.
 """
 
+from types import MappingProxyType
+
 from ..core import Drawing, Model, cos, event, input, output, param, sin, speed, state
 from ..parts.rigid_body import inertia_tensor, possible_inertia
 from ..parts.rolling import rolling_motion
@@ -28,6 +30,8 @@ class Lean(Model):
 
     theta = state("rad", "lean angle", motion="lean")
     p = state("kg m^2/s", "lean momentum about the line on the ground", motion="lean")
+
+    mode_names = MappingProxyType({"lean divergence": "capsize divergence"})
 
     delta_f = input("rad", "front steer angle")
     delta_r = input("rad", "rear steer angle")

@@ -4,6 +4,8 @@ y is the sideways deflection of the tire at the front of its contact patch; the 
 relaxation length. As in the source c, k and kappa are signed like the moments that they give: negative ones resist.
 """
 
+from types import MappingProxyType
+
 from ..core import Drawing, Model, atan, coordinate, param, slot, speed, state
 from ..parts.shapes import caster
 from ..parts.tires.clipped import Clipped
@@ -25,6 +27,8 @@ class NoseGear(Model):
 
     psi = coordinate("rad", "swivel angle", motion="swivel")
     y = state("m", "lateral deflection of the tire", motion="tire")
+
+    mode_names = MappingProxyType({"swivel oscillation": "shimmy", "tire oscillation": "shimmy"})
 
     def tire_forces(self, x):
         return self.tire.forces(self.F_z, -atan(x.y / self.sigma))

@@ -4,6 +4,8 @@ The car body moves straight with speed V; wheelset 1 lies b ahead of the frame's
 behind. f_x acts along, f_y across the rolling direction, for one wheel.
 """
 
+from types import MappingProxyType
+
 from ..core import Drawing, Model, coordinate, cos, param, sin, speed
 from ..core.contract.drawing import box
 from ..parts.creep import contact_velocities, creep_forces
@@ -37,6 +39,8 @@ class RailTruck(Model):
     psi_2 = coordinate("rad", "yaw angle of the trailing wheelset", motion="wheelset yaw")
     y_f = coordinate("m", "lateral displacement of the frame's centre", motion="frame")
     psi_f = coordinate("rad", "yaw angle of the frame", motion="frame yaw")
+
+    mode_names = MappingProxyType({"wheelset oscillation": "hunting", "wheelset yaw oscillation": "hunting"})
 
     def kinetic_energy(self, x, dx):
         leading = self.m * dx.y_1**2 / 2 + self.I * dx.psi_1**2 / 2

@@ -5,6 +5,8 @@ acts along, f_y across the rolling direction, for one wheel, which carries the l
 with gravity.
 """
 
+from types import MappingProxyType
+
 from ..core import Drawing, Model, coordinate, cos, param, sin, speed
 from ..core.contract.drawing import box, moved
 from ..parts.creep import contact_velocities, creep_forces
@@ -32,6 +34,8 @@ class RailTruckRigid(Model):
 
     y = coordinate("m", "lateral displacement of the truck's centre", motion="lateral")
     psi = coordinate("rad", "yaw angle of the truck", motion="yaw")
+
+    mode_names = MappingProxyType({"lateral oscillation": "hunting", "yaw oscillation": "hunting"})
 
     def kinetic_energy(self, x, dx):
         return self.m * dx.y**2 / 2 + self.I * dx.psi**2 / 2

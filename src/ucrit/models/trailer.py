@@ -3,6 +3,8 @@
 theta is positive when the trailer's rear swings to the left; the axle lies a + b behind the hitch.
 """
 
+from types import MappingProxyType
+
 from ..bondgraph import C, Graph, R, Sf, bodies, equations_bond_graph, f, one, q, running_gear
 from ..core import Drawing, Model, coordinate, cos, param, sin, speed
 from ..parts.shapes import trailer
@@ -23,6 +25,15 @@ class Trailer(Model):
 
     x = coordinate("m", "lateral displacement of the hitch", motion="lateral")
     theta = coordinate("rad", "yaw angle of the trailer", motion="yaw")
+
+    mode_names = MappingProxyType(
+        {
+            "lateral oscillation": "sway",
+            "yaw oscillation": "sway",
+            "lateral divergence": "jackknife divergence",
+            "yaw divergence": "jackknife divergence",
+        }
+    )
 
     def kinetic_energy(self, x, dx):
         forward = self.U + self.a * dx.theta * sin(x.theta)

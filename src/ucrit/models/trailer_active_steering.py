@@ -5,6 +5,8 @@ theta is positive when the trailer's rear swings to the left, omega when the pat
 wheels are steered in the same sense as theta.
 """
 
+from types import MappingProxyType
+
 from ..core import Drawing, Model, cos, input, output, param, sin, speed, state
 from ..parts.shapes import trailer
 from ..parts.tires import linear_side_force, slip_angle
@@ -23,6 +25,8 @@ class TrailerActiveSteering(Model):
 
     theta = state("rad", "yaw angle of the trailer to the hitch's path", motion="yaw")
     r = state("rad/s", "yaw rate of the trailer", motion="yaw")
+
+    mode_names = MappingProxyType({"yaw oscillation": "sway", "yaw divergence": "jackknife divergence"})
 
     omega = input("rad/s", "yaw rate of the hitch's path, constant in a steady turn")
 

@@ -3,6 +3,8 @@
 theta is positive when the trailer's rear swings to the left; the axle lies a + b behind the hitch.
 """
 
+from types import MappingProxyType
+
 from ..core import Drawing, Model, param, sin, speed, state
 from ..parts.shapes import trailer
 
@@ -15,6 +17,8 @@ class TrailerKinematic(Model):
     U: float = speed("speed of the towing vehicle", reverse=True)
 
     theta = state("rad", "yaw angle of the trailer", motion="yaw")
+
+    mode_names = MappingProxyType({"yaw divergence": "jackknife divergence"})
 
     def equations(self, x, dx):
         return (self.a + self.b) * dx.theta + self.U * sin(x.theta)

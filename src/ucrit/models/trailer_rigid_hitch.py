@@ -3,6 +3,8 @@
 theta is positive when the trailer's rear swings to the left; the axle lies a + b behind the hitch.
 """
 
+from types import MappingProxyType
+
 from ..bondgraph import Graph, Sf, bodies, equations_bond_graph, f, one, q, running_gear
 from ..core import Drawing, Model, coordinate, cos, param, sin, speed
 from ..parts.shapes import trailer
@@ -20,6 +22,8 @@ class TrailerRigidHitch(Model):
     U: float = speed("speed of the towing vehicle", reverse=True)
 
     theta = coordinate("rad", "yaw angle of the trailer", motion="yaw")
+
+    mode_names = MappingProxyType({"yaw oscillation": "sway", "yaw divergence": "jackknife divergence"})
 
     def axle_velocity(self, x, dx):
         return self.U * sin(x.theta) + (self.a + self.b) * dx.theta, self.U * cos(x.theta)

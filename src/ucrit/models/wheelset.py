@@ -3,6 +3,8 @@
 The truck frame moves straight with speed V. f_x acts along, f_y across the rolling direction, for one wheel.
 """
 
+from types import MappingProxyType
+
 from ..bondgraph import C, Graph, I, R, Sf, equations_bond_graph, one, q, running_gear
 from ..core import Drawing, Model, coordinate, cos, param, sin, speed
 from ..parts.creep import contact_velocities, creep_force, creep_forces, creepage
@@ -25,6 +27,8 @@ class Wheelset(Model):
 
     y = coordinate("m", "lateral displacement of the wheelset", motion="lateral")
     psi = coordinate("rad", "yaw angle of the wheelset", motion="yaw")
+
+    mode_names = MappingProxyType({"lateral oscillation": "hunting", "yaw oscillation": "hunting"})
 
     def kinetic_energy(self, x, dx):
         return self.m * dx.y**2 / 2 + self.I * dx.psi**2 / 2

@@ -1,5 +1,7 @@
 """Axes: x along the track, y to the left, psi positive counter-clockwise seen from above. SI units and radians."""
 
+from types import MappingProxyType
+
 from ..core import Drawing, Model, param, sin, state
 from ..parts.shapes import rails, wheelset
 
@@ -14,6 +16,8 @@ class WheelsetKinematic(Model):
 
     y = state("m", "lateral displacement of the wheelset", motion="lateral")
     psi = state("rad", "yaw angle of the wheelset", motion="yaw")
+
+    mode_names = MappingProxyType({"lateral oscillation": "hunting", "yaw oscillation": "hunting"})
 
     def equations(self, x, dx):
         left = (self.r_0 + self.Psi * x.y) * self.Omega

@@ -11,7 +11,7 @@ from ..core.errors import UcritError
 from . import labels, style
 
 if TYPE_CHECKING:
-    from ..analyses.linear.margins import Margins
+    from ..analyses.stability.margins import Margins
 
 Array = npt.NDArray[Any]
 

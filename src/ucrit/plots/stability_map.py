@@ -32,7 +32,7 @@ def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any 
     ----------
     result
         `ucrit.stability_map(vehicle, ...)` over two parameters; the first one goes to the right. With margins, lines
-        of equal least damping ratio are drawn too.
+        of equal least damping ratio zeta are drawn too.
     vehicle
         The vehicle as it is, to be marked.
     figure
@@ -54,6 +54,7 @@ def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any 
     taken = [_some(name, np.asarray(result.coords[name])) for name in names]
     x, y = (np.asarray(result.coords[name], dtype=float)[i] for name, i in zip(names, taken, strict=True))
     stable = np.asarray(result.stable, dtype=bool)[np.ix_(*taken)].T
+    height = _height(stable, None if result.growth is None else np.asarray(result.growth)[np.ix_(*taken)].T)
     point = None if vehicle is None else _point(vehicle, names, (x, y))
     with style.settings():
         fig = figure or style.new_figure(height=4.0)
@@ -61,12 +62,12 @@ def plot_map(result: StabilityMap, *, vehicle: Model | None = None, figure: Any 
         for axis, values in (("x", x), ("y", y)):
             if _ratios(values):
                 getattr(axes, f"set_{axis}scale")("log")
-        fill(axes, (x, y), stable, point)
+        fill(axes, (x, y), stable, point, height)
         if stable.any() and not stable.all():
-            axes.contour(x, y, stable.astype(float), levels=[0.5], colors=[style.INK], linewidths=1.4, zorder=3)
+            axes.contour(x, y, height, levels=[0], colors=[style.INK], linewidths=1.4, zorder=3)
         if result.damping is not None:
             lines = axes.contour(x, y, result.damping[np.ix_(*taken)].T, DAMPING, colors=[style.MUTED], linewidths=0.8)
-            axes.clabel(lines, fontsize=8)
+            axes.clabel(lines, fontsize=8, fmt=lambda ratio: f"$\\zeta$ = {ratio:g}")
         if point is not None:
             _design(axes, point, (x, y), stable)
         axes.set_xlim(x.min(), x.max())
@@ -85,10 +86,18 @@ def _some(name: str, values: Array) -> Array:
     return np.asarray(rising[np.linspace(0, rising.size - 1, min(rising.size, MOST)).round().astype(int)])
 
 
-def fill(axes: Any, grid: tuple[Array, Array], stable: Array, point: Point | None) -> None:
-    """Colour stable and unstable regions, and name them."""
-    shades = [style.UNSTABLE, style.STABLE]
-    axes.contourf(*grid, stable.astype(float), levels=[-0.5, 0.5, 1.5], colors=shades, zorder=0)
+def _height(stable: Array, growth: Array | None) -> Array:
+    """Return what is above zero where a vehicle is stable: its decay, which bends smoothly, if that says the same."""
+    if growth is None or not np.isfinite(growth).all() or ((growth < 0) != stable).any():
+        return stable - 0.5
+    return -growth
+
+
+def fill(axes: Any, grid: tuple[Array, Array], stable: Array, point: Point | None, height: Array | None = None) -> None:
+    """Colour stable and unstable regions, and name them; ``height`` is above zero where stable."""
+    height = _height(stable, None) if height is None else height
+    ends = [min(height.min(), 0) - 1, 0, max(height.max(), 0) + 1]
+    axes.contourf(*grid, height, levels=ends, colors=[style.UNSTABLE, style.STABLE], zorder=0)
     for flags, word in ((stable, "stable"), (~stable, "unstable")):
         _name(axes, flags, grid, word, point)
 
@@ -112,7 +121,9 @@ def _name(axes: Any, flags: Array, grid: tuple[Array, Array], word: str, point: 
         return
     x, y = grid
     row, column = _deepest(flags, None if point is None else _cell(point, grid))
-    axes.text(x[column], y[row], word, ha="center", va="center", fontsize=10.5, color=style.INK, zorder=4)
+    looks = {"ha": "center", "va": "center", "fontsize": 10.5, "color": style.INK, "zorder": 4}
+    ground = {"facecolor": style.STABLE if word == "stable" else style.UNSTABLE, "edgecolor": "none", "pad": 1.5}
+    axes.text(x[column], y[row], word, bbox=ground, **looks)
 
 
 def _deepest(flags: Array, avoid: tuple[int, int] | None) -> tuple[int, int]:

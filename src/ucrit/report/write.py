@@ -94,6 +94,7 @@ def _texts(analysis: Analysis) -> dict[str, Any]:
         "note": info.note,
         "judgement": tables.judgement(analysis),
         "sentence": sentence[:1].upper() + sentence[1:] + ".",
+        "caveat": f"But {analysis.caveat}." if analysis.caveat else "",
         "goal": _goal(analysis),
         "at": "" if analysis.speed is None else f"at {_speed(analysis)}",
         "why_no_criteria": "" if found else analysis.why_no_criteria,

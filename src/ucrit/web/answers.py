@@ -140,7 +140,7 @@ def state(vehicle: Model, body: Mapping[str, Any]) -> Answer:
         "word": judged.word,
         "style": judged.style,
         "sign": judged.sign,
-        "sentence": sentence[:1].upper() + sentence[1:] + ".",
+        "sentence": sentence[:1].upper() + sentence[1:] + "." + (f" But {found.caveat}." if found.caveat else ""),
         "analysis": found.to_dict(),
         **_curves(found, body),
     }

@@ -9,7 +9,8 @@ from typing import Any
 from ...catalogue import find_controller
 from ...control import Controller
 from ...core.contract.declare import Input, Output, Parameter, Variable
-from ...core.contract.model import Model, as_tuple, call
+from ...core.contract.methods import as_tuple, call
+from ...core.contract.model import Model
 from ...core.html import Rich
 
 

@@ -3,27 +3,26 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
+from ...core.contract.mode_names import motion_word, staying_word
 from ...core.contract.model import Model
 from ...core.errors import UcritError
 from ...core.numeric.compiled import compiled, direction, labels, state_space
+from ...core.numeric.reach import refuse_lost, unusable
 from ...core.record import Record
-from ...core.units import dimension
 from ...numerics.assignment import assign
 from ..results.convert import Series, Table, Tabular, complex_series, unit_of
 
 Array = npt.NDArray[Any]
 
-STAYS = {
-    dimension(unit): word for unit, word in (("m", "position"), ("1", "position"), ("m/s", "speed"), ("1/s", "rate"))
-}
-"""What a state is called that a zero eigenvalue leaves where it is."""
+ALIKE = 1.1
+"""Ratio of moduli up to which two modes of one name are not told apart as slow and fast."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +32,10 @@ class Mode(Record):
     Attributes
     ----------
     name
-        The motion that takes part most, and how it goes: ``yaw oscillation``, ``lateral divergence``.
+        What it is called; no other mode of the vehicle has this name. It is the motion that takes part most, and how
+        it goes: ``yaw oscillation``, ``lateral divergence``, or the field's own name: ``hunting``.
+    motion
+        The motion that takes part most: ``yaw``.
     eigenvalue
         [1/s]; of a pair the one with the positive imaginary part.
     participation
@@ -43,6 +45,7 @@ class Mode(Record):
     """
 
     name: str
+    motion: str
     eigenvalue: complex
     participation: dict[str, float]
     shape: dict[str, complex]
@@ -83,6 +86,10 @@ class Mode(Record):
 class Modes(Tabular):
     """Eigenvalues and eigenvectors of a vehicle; leading dimensions are those of its array parameters.
 
+    A mode is named after the variable that takes part most. Where the field has names of its own, a model gives them
+    by the names that follow: ``mode_names = {"swivel oscillation": "shimmy"}``; of several modes that one of them fits,
+    the least stable gets it.
+
     Attributes
     ----------
     eigenvalues
@@ -110,18 +117,18 @@ class Modes(Tabular):
         if self.eigenvalues.ndim != 1:
             raise UcritError("modes of a vehicle with array parameters are arrays: use .eigenvalues and .participation")
         kept = [k for k, value in enumerate(self.eigenvalues) if value.imag >= 0]
-        named = [f"{motion} {self._going(k)}" for motion, k in zip(self._motions(kept), kept, strict=True)]
-        own = getattr(type(self.vehicle), "mode_names", {})
-        named = [own.get(name, name) for name in named]
-        names = _distinct(list(zip(named, self.eigenvalues[kept], strict=True)))
+        motions = self._motions(kept)
+        derived = [f"{motion} {self._going(k)}" for motion, k in zip(motions, kept, strict=True)]
+        names = _distinct(_called(derived, type(self.vehicle).mode_names), self.eigenvalues[kept])
         return [
             Mode(
                 name,
+                motion,
                 complex(self.eigenvalues[k]),
                 dict(zip(self.labels, map(float, self.participation[:, k]), strict=True)),
                 dict(zip(self.labels, map(complex, self._shape(k)), strict=True)),
             )
-            for name, k in zip(names, kept, strict=True)
+            for name, motion, k in zip(names, motions, kept, strict=True)
         ]
 
     @property
@@ -160,14 +167,13 @@ class Modes(Tabular):
 
         It is that of the variable that takes part most. A model whose variables name as many motions as it has modes
         may say ``one_mode_each = True``: each motion then names the one mode in which it has its share, such that
-        all shares together are largest. Where the field has names of its own, ``mode_names`` gives them by the names
-        that follow: ``{"steer oscillation": "weave oscillation"}``.
+        all shares together are largest.
         """
         rows: dict[str, list[int]] = {}
         motions = [self._motion(label.rstrip("'")) for label in self.labels]
         for i, motion in enumerate(motions):
             rows.setdefault(motion, []).append(i)
-        if getattr(type(self.vehicle), "one_mode_each", False) and len(rows) == len(kept):
+        if type(self.vehicle).one_mode_each and len(rows) == len(kept):
             shares = np.array([[self.participation[own, k].sum() for own in rows.values()] for k in kept])
             names = tuple(rows)
             return tuple(names[i] for i in assign(1 - shares[None])[0])
@@ -183,7 +189,7 @@ class Modes(Tabular):
 
     def _motion(self, name: str) -> str:
         variable = type(self.vehicle).declaration.variables.get(name)
-        return (variable and (variable.motion or variable.meaning)) or name
+        return motion_word(variable) if variable else name
 
     def _going(self, k: int) -> str:
         value = complex(self.eigenvalues[k])
@@ -194,7 +200,7 @@ class Modes(Tabular):
     def _staying(self, label: str) -> str:
         """Return what it is that nothing restores, by the unit of the state that takes part most."""
         variable = type(self.vehicle).declaration.variables.get(label.rstrip("'"))
-        return STAYS.get(dimension(variable.state_unit(label.count("'"))), "value") if variable else "value"
+        return staying_word(variable, label.count("'")) if variable else "value"
 
     @property
     def growth(self) -> Array:
@@ -245,6 +251,8 @@ def eigensystem(vehicle: Model) -> tuple[Array, Array]:
     """Return eigenvalues [1/s] (..., n) and right eigenvectors (..., n, n) in columns, in order."""
     values, vectors = np.linalg.eig(_state_matrix(vehicle))
     values, vectors = values.astype(complex), vectors.astype(complex)
+    if not vehicle.dims:
+        refuse_lost(vehicle, values)
     order = _order(values)
     values = np.take_along_axis(values, order, axis=-1)
     vectors = np.take_along_axis(vectors, order[..., None, :], axis=-1)
@@ -260,7 +268,7 @@ def eigenvalues(vehicle: Model) -> Array:
 def _state_matrix(vehicle: Model) -> Array:
     A = state_space(vehicle).A
     if not np.all(np.isfinite(A)):
-        raise UcritError(f"{type(vehicle).model_id()}: the equations are singular for these parameters")
+        raise unusable(vehicle)
     return A
 
 
@@ -300,13 +308,32 @@ def _participation(vectors: Array) -> Array:
     return np.asarray(product / product.sum(axis=-2, keepdims=True))
 
 
-def _distinct(named: list[tuple[str, complex]]) -> list[str]:
-    """Tell modes of one name apart: slow and fast for two, numbers by modulus for more."""
-    names = [name for name, _ in named]
-    result = list(names)
+def mode_name(model: type[Model], motion: str, going: str) -> str:
+    """Return what a model calls a mode that is alone in its motion, such as the one that becomes unstable.
+
+    >>> from ucrit import find_model
+    >>> mode_name(find_model("nose-gear"), "swivel", "oscillation")
+    'shimmy'
+    """
+    name = f"{motion} {going}"
+    return model.mode_names.get(name, name)
+
+
+def _called(derived: Sequence[str], own: Mapping[str, str]) -> list[str]:
+    """Give each of the field's names to one mode, the least stable of those it fits; they come in this order."""
+    names: list[str] = []
+    for name in derived:
+        called = own.get(name, name)
+        names.append(name if called in names else called)
+    return names
+
+
+def _distinct(names: list[str], values: Array) -> list[str]:
+    """Tell modes of one name apart: slow and fast for two unlike ones, else numbers by modulus."""
+    result, sizes = list(names), np.abs(values)
     for name in set(names):
-        same = sorted((i for i, n in enumerate(names) if n == name), key=lambda i: abs(named[i][1]))
-        if len(same) == 2 and abs(named[same[0]][1]) < abs(named[same[1]][1]):
+        same = sorted((i for i, n in enumerate(names) if n == name), key=lambda i: sizes[i])
+        if len(same) == 2 and sizes[same[1]] > ALIKE * sizes[same[0]]:
             result[same[0]], result[same[1]] = f"slow {name}", f"fast {name}"
         elif len(same) > 1:
             for number, i in enumerate(same, 1):

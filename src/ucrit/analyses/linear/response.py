@@ -13,6 +13,7 @@ import numpy.typing as npt
 from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
 from ...core.numeric.compiled import labels, state_space
+from ...core.numeric.reach import unusable
 from ...numerics.exponential import expm
 from .modes import modes
 from .response_results import FrequencyResponse, TimeResponse
@@ -51,6 +52,8 @@ def _choose(vehicle: Model, input: str, outputs: str | Sequence[str] | None) -> 
         if name not in known:
             raise UcritError(f"{model}: there is no output '{name}'{near_match(name, known)}")
     A, B, C, D = state_space(vehicle)
+    if not all(np.isfinite(block).all() for block in (A, B, C, D)):
+        raise unusable(vehicle)
     column = list(declared.inputs).index(input)
     eye = np.broadcast_to(np.eye(len(states)), A.shape)
     rows = [list(known).index(name) for name in names]
@@ -99,10 +102,12 @@ def frequency_response(
     f = np.atleast_1d(_axis(vehicle, "frequencies", frequencies, _frequencies))
     if f.ndim != 1 or not np.all(np.isfinite(f) & (f > 0)):
         raise UcritError("frequencies must be a list of finite numbers above 0 Hz")
-    s = 2j * np.pi * f[:, None, None]
     n = chosen.A.shape[-1]
-    x = np.linalg.solve(s * np.eye(n) - chosen.A[..., None, :, :], chosen.B[..., None, :, None])
-    values = (chosen.C[..., None, :, :] @ x)[..., 0] + chosen.D[..., None, :]
+    with np.errstate(all="ignore"):
+        s = 2j * np.pi * f[:, None, None]
+        x = np.linalg.solve(s * np.eye(n) - chosen.A[..., None, :, :], chosen.B[..., None, :, None])
+        values = (chosen.C[..., None, :, :] @ x)[..., 0] + chosen.D[..., None, :]
+    _refuse_beyond(np.isfinite(values), f, "Hz", vehicle)
     return FrequencyResponse(vehicle, input, chosen.outputs, chosen.units, f, values, chosen.growth < 0)
 
 
@@ -186,14 +191,18 @@ def _in_time(vehicle: Model, input: str, outputs: Any, times: Any, size: float, 
     n = chosen.A.shape[-1]
     joined = np.zeros((*chosen.A.shape[:-2], n + 1, n + 1))
     joined[..., :n, :n], joined[..., :n, n] = chosen.A, chosen.B
-    flow = expm(joined[..., None, :, :] * t[:, None, None])
-    x = flow[..., :n, n] if kind == "step" else (flow[..., :n, :n] @ chosen.B[..., None, :, None])[..., 0]
-    values = (chosen.C[..., None, :, :] @ x[..., None])[..., 0]
-    direct = np.zeros_like(chosen.D) if kind == "step" else chosen.D
-    if kind == "step":
-        values = values + chosen.D[..., None, :]
-    final = _final(chosen) if kind == "step" else np.where((chosen.growth < 0)[..., None], 0.0, np.nan)
-    final = np.broadcast_to(final, chosen.D.shape)
+    with np.errstate(all="ignore"):
+        flow = expm(joined[..., None, :, :] * t[:, None, None])
+        x = flow[..., :n, n] if kind == "step" else (flow[..., :n, :n] @ chosen.B[..., None, :, None])[..., 0]
+        values = (chosen.C[..., None, :, :] @ x[..., None])[..., 0]
+        direct = np.zeros_like(chosen.D) if kind == "step" else chosen.D
+        if kind == "step":
+            values = values + chosen.D[..., None, :]
+        values, direct = size * values, size * direct
+        final = _final(chosen) if kind == "step" else np.where((chosen.growth < 0)[..., None], 0.0, np.nan)
+        final = size * np.broadcast_to(final, chosen.D.shape)
+    told = np.isfinite(direct) & ~np.isinf(final)
+    _refuse_beyond(np.isfinite(values) & told[..., None, :], t, "s", vehicle)
     return TimeResponse(
         vehicle,
         input,
@@ -202,10 +211,20 @@ def _in_time(vehicle: Model, input: str, outputs: Any, times: Any, size: float, 
         kind,
         size,
         t,
-        size * values,
-        size * direct,
-        size * final,
+        values,
+        direct,
+        final,
     )
+
+
+def _refuse_beyond(finite: Array, axis: Array, unit: str, vehicle: Model) -> None:
+    """Refuse a response that is not finite; the axis is the last but one of ``finite``."""
+    if not finite.all():
+        whole = finite.all(axis=tuple(k for k in range(finite.ndim) if k != finite.ndim - 2))
+        raise UcritError(
+            f"{type(vehicle).model_id()}: the response at {axis[~whole][0]:g} {unit} is beyond the range of double "
+            "numbers, 1e308"
+        )
 
 
 def _final(chosen: _Chosen) -> Array:

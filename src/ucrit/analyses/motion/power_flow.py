@@ -11,7 +11,8 @@ import numpy.typing as npt
 
 from ...bondgraph.graph import Bond
 from ...bondgraph.model import BondGraphModel, graph_of, states_bond_graph
-from ...core.contract.model import Model, Names
+from ...core.contract.methods import Names
+from ...core.contract.model import Model
 from ...core.errors import UcritError
 from ..results.convert import Series, Table, Tabular
 from .simulation import Simulation

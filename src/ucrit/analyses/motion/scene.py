@@ -14,7 +14,8 @@ import numpy as np
 import numpy.typing as npt
 
 from ...core.contract.drawing import Drawing
-from ...core.contract.model import Model, Names, call
+from ...core.contract.methods import Names, call
+from ...core.contract.model import Model
 from ...core.errors import UcritError
 from ...core.numeric.compiled import labels
 from ...core.numeric.motion import motion

@@ -130,6 +130,10 @@ class Simulation(Tabular):
         units = {name: declared.variables[name.rstrip("'")].state_unit(name.count("'")) for name in self.states}
         return units | {n: quantity.unit for n, quantity in (*declared.outputs.items(), *declared.inputs.items())}
 
+    def findings(self) -> dict[str, Any]:
+        """Return the method, and what ended the motion before its time (empty if nothing did)."""
+        return {"method": self.method, "ended": self.ended}
+
     def table(self) -> Table:
         """Return states, outputs and inputs over time with their units, and events beside them."""
         units, dims = self.units(), self.dims

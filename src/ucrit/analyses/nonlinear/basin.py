@@ -65,6 +65,11 @@ class Basin(Rich):
         """Disturbance on the border [SI]."""
         return 0.5 * (self.dies_out + self.persists)
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the finding as plain data, in words too."""
+        sizes = {"dies_out": self.dies_out, "persists": self.persists}
+        return {"sentence": str(self), "state": self.state, "unit": self.unit, **sizes}
+
     def __str__(self) -> str:
         size = amplitude_text(self.threshold, self.unit)
         end = "does not die out"

@@ -87,10 +87,9 @@ def _branch(branch: CycleBranch, say: Callable[[float], str]) -> list[str]:
     event = branch.critical
     if event is None:
         return _from_motion(branch, say)
-    subject = event.mode.rpartition(" ")[0]
     side = "below" if (event.stable == "below") == (event.value > 0) else "above"
     said = [
-        f"Straight running is stable {side} {value_text(branch, event.value, say)}; beyond, the {subject} oscillation "
+        f"Straight running is stable {side} {value_text(branch, event.value, say)}; beyond, the {event.mode} "
         f"grows at {event.frequency_hz:.3g} Hz."
     ]
     said += [_kind(branch)]

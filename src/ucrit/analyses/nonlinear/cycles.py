@@ -73,6 +73,10 @@ class LimitCycles(Tabular):
 
         return describe(self)
 
+    def findings(self) -> dict[str, Any]:
+        """Return what happens, in words."""
+        return {"sentences": list(self.sentences)}
+
     def table(self) -> Table:
         """Return one row for each cycle, with the number of its branch."""
         return table_of(self.vehicle, self.parameter, self.branches)

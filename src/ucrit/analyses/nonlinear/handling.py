@@ -117,6 +117,12 @@ class Handling(Tabular):
         """Lateral acceleration [m/s^2] from which on turns are unstable; nan where none is."""
         return next((r.a_y[0] for r in self.ranges if r.kind == "unstable"), np.nan)
 
+    def findings(self) -> dict[str, Any]:
+        """Return what gives way first, the largest lateral acceleration [m/s^2], and both in words."""
+        from .handling_words import sentences
+
+        return {"limit": self.limit, "largest": self.largest, "sentences": [line.strip() for line in sentences(self)]}
+
     def table(self) -> Table:
         """Return the curves of the handling diagram."""
         columns = {

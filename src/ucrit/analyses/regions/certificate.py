@@ -13,7 +13,6 @@ import numpy.typing as npt
 from ...core.contract.model import Model
 from ...core.numeric.compiled import compiled
 from ..results.convert import Series, Table, Tabular, unit_of
-from ..stability.wording import speed_text
 
 Array = npt.NDArray[Any]
 
@@ -38,7 +37,7 @@ class Counterexample:
 
     def __str__(self) -> str:
         first = self.eigenvalues[0]
-        imag = f" +- {abs(first.imag):.4g}j" if first.imag else ""
+        imag = f" ± {abs(first.imag):.4g}j" if first.imag else ""
         at = ", ".join(_value(self.vehicle, name, x) for name, x in self.values.items())
         return f"not stable at {at}: eigenvalue {first.real:.4g}{imag} 1/s"
 
@@ -102,6 +101,23 @@ class Certificate(Tabular):
             "allow more boxes or take a smaller region"
         )
 
+    def findings(self) -> dict[str, Any]:
+        """Return the state, in words too, and a counter-example: its values and eigenvalues."""
+        found = self.counterexample
+        against = (
+            None
+            if found is None
+            else {
+                "values": dict(found.values),
+                "eigenvalues": [{"re": z.real, "im": z.imag} for z in found.eigenvalues],
+            }
+        )
+        return {
+            "ranges": {name: [float(end) for end in ends] for name, ends in self.ranges.items()},
+            "state": self.state, "sentence": self.sentence, "proved_share": self.proved_share, "boxes": self.boxes,
+            "counterexample": against,
+        }  # fmt: skip
+
     def table(self) -> Table:
         """Return one row for each box left undecided."""
         rows = ("box",)
@@ -125,7 +141,9 @@ def _value(vehicle: Model, name: str, x: float) -> str:
 def _range(vehicle: Model, name: str, low: Fraction, high: Fraction) -> str:
     unit = unit_of(vehicle, name)
     if name == type(vehicle).declaration.speed:
-        return f"every {name} from {float(low):.6g} to {speed_text(float(high))}"
+        ends = float(low), float(high)
+        km_h = " to ".join(f"{3.6 * x:.6g}" for x in ends)
+        return f"every {name} from {ends[0]:.6g} to {ends[1]:.6g} m/s ({km_h} km/h)"
     return f"every {name} from {float(low):.10g} to {float(high):.10g}" + ("" if unit == "1" else f" {unit}")
 
 

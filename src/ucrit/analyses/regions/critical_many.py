@@ -19,6 +19,7 @@ from ...core.numeric.compiled import Compiled, compiled, deciding
 from ...core.record import Record
 from ...numerics.bundles import hurwitz_bundle, real_parts
 from ...numerics.hurwitz import stable as hurwitz_stable
+from ..stability.judge import settle
 
 Array = npt.NDArray[Any]
 
@@ -98,6 +99,7 @@ class _Block:
     """One block of vehicles; speeds are relative to ``unit`` (the vehicle's own) and positive."""
 
     def __init__(self, vehicle: Model, columns: Mapping[str, Array], sense: int) -> None:
+        self.vehicle = vehicle
         self.functions: Compiled = compiled(type(vehicle), sense)
         self.speed = str(type(vehicle).declaration.speed)
         self.unit = abs(float(vehicle.values[self.speed])) * sense
@@ -119,6 +121,11 @@ class _Block:
             return np.ones(np.shape(speeds), dtype=bool)
         return np.asarray(np.broadcast_to(hurwitz_stable(a), np.shape(speeds)))
 
+    def judged(self, speeds: Array) -> Array:
+        """Return the verdicts at speeds of shape (rows, K), where rounding might matter by the exact judge."""
+        repeated = {k: np.repeat(np.asarray(v), speeds.shape[1]) for k, v in self.values.items() if np.ndim(v)}
+        return settle(self.vehicle, {**repeated, self.speed: speeds.ravel() * self.unit}).reshape(speeds.shape)
+
     def found(self) -> Crossings:
         """Return the crossings of this block."""
         candidates, exact = self._candidates()
@@ -131,7 +138,7 @@ class _Block:
             mids[:, 0], mids[:, -1] = limited[:, 0] / 2, np.maximum(last, limited[:, -1])
         else:
             mids[:, 0] = last
-        stable = self.stable(mids)
+        stable = self.judged(mids)
         rows, places = np.nonzero(stable[:, 1:] != stable[:, :-1])
         values = self._refined(rows, candidates[rows, places], mids[rows, places], mids[rows, places + 1])
         return Crossings(stable[:, 0], self._by_row(rows, values * abs(self.unit)), exact)

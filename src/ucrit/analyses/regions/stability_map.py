@@ -64,6 +64,10 @@ class StabilityMap(Tabular):
         """Share of the points that are stable, 0 to 1."""
         return float(np.count_nonzero(self.stable) / self.stable.size)
 
+    def findings(self) -> dict[str, Any]:
+        """Return the share of the points that is stable."""
+        return {"share": self.share}
+
     def table(self) -> Table:
         """Return the map with its coordinates."""
         coords = tuple(Series(name, (name,), x, unit_of(self.vehicle, name)) for name, x in self.coords.items())

@@ -6,6 +6,7 @@ killed, a chunk that is marked is complete and is never computed again, and one 
 
 from __future__ import annotations
 
+import errno
 import json
 import os
 import re
@@ -106,6 +107,8 @@ def stream(
     xarray = needed("xarray", "scale", "a labelled array")
     found = job(vehicle, kind, chunk, ranges)
     path = str(Path(store).absolute())
+    if not Path(path).parent.is_dir():
+        raise UcritError(f"the store '{path}' cannot be written: {os.strerror(errno.ENOENT)}")
     with nullcontext() if client is None else _connected(client) as cluster, _writing(path):
         group = _opened(zarr, path, found)
         done = np.asarray(group[DONE][...]) != 0

@@ -143,6 +143,10 @@ class Uncertainty(Tabular):
     def _limit(self, say: Callable[[float], str], otherwise: str = "") -> str:
         return f" {otherwise}".rstrip() if np.isinf(self.upto) else f" up to {say(self.upto)}"
 
+    def findings(self) -> dict[str, Any]:
+        """Return the distribution in words, the critical speed [m/s] as given, and the shares without one."""
+        return {"sentence": self.sentence, "as_given": self.as_given, "never": self.never, "always": self.always}
+
     def table(self) -> Table:
         """Return one row for each vehicle: its parameters and its critical speed."""
         rows = ("sample",)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import importlib
 import json
+import math
 import os
 import re
 import tempfile
@@ -158,20 +159,28 @@ class Tabular(Record):
         """
         write_whole(path, bytes(self.to_xarray().to_netcdf(engine="scipy")))
 
-    def to_json(self, path: PathLike | None = None) -> str:
-        """Return the result as JSON text, and write it if a path is given; nan and infinity become null."""
+    def findings(self) -> dict[str, Any]:
+        """Return what the result tells beside its table, as plain data: sentences, single numbers."""
+        return {}
+
+    def to_dict(self) -> dict[str, Any]:
+        """Return the result as plain data, as `to_json` writes it; nan and infinity become ``None``."""
         table = self.table()
         vehicle = table.vehicle
-        content = {
+        return {
             "schema": SCHEMA,
             "result": table.title,
             "model": type(vehicle).model_id(),
             "vehicle": vehicle.info.name,
             "parameters": table.parameters(),
+            "findings": finite(self.findings()),
             "coordinates": {s.name: _entry(s) for s in table.coords},
             "variables": {s.name: _entry(s) for s in (*table.data, *table.beside)},
         }
-        text = json.dumps(content, allow_nan=False)
+
+    def to_json(self, path: PathLike | None = None) -> str:
+        """Return the result as JSON text, and write it if a path is given; nan and infinity become null."""
+        text = json.dumps(self.to_dict(), allow_nan=False)
         if path is not None:
             write_whole(path, text.encode())
         return text
@@ -210,6 +219,15 @@ def _plain(values: Array) -> Any:
         kept[~np.isfinite(values)] = None
         return kept.tolist()
     return values.tolist()
+
+
+def finite(value: Any) -> Any:
+    """Return plain data with ``None`` for numbers that are infinite or undefined, which JSON does not have."""
+    if isinstance(value, dict):
+        return {key: finite(entry) for key, entry in value.items()}
+    if isinstance(value, list):
+        return [finite(entry) for entry in value]
+    return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
 def write_whole(path: PathLike, content: bytes) -> None:

@@ -159,7 +159,10 @@ def stability_map(found: StabilityMap) -> str:
 
 def analysis(found: Analysis, advised: Sequence[Advice]) -> str:
     """Return the verdict, then modes, critical speeds, criteria and remedies."""
-    parts = [f"<p><b>{text(name_of(found.vehicle))}</b>: {text(found.sentence)}</p>", modes(found.modes, "Modes")]
+    parts = [
+        f"<p><b>{text(name_of(found.vehicle))}</b>: {text(str(found).removeprefix(f'{name_of(found.vehicle)}: '))}</p>",
+        modes(found.modes, "Modes"),
+    ]
     if found.critical:
         parts.append(critical_values(found.critical))
     if found.criteria is not None:

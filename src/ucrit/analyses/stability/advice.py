@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from ...core.contract.possible import allowed
-from ...core.numeric.compiled import deciding_coefficients
-from ...numerics.hurwitz import stable
 from ..results.digits import decimal_text, rounded
+from .judge import judge
 from .remedies import SPEEDS, Remedy
 
 if TYPE_CHECKING:
@@ -70,4 +69,4 @@ def _helps(found: Analysis, parameter: str, value: float) -> bool:
     name = type(found.vehicle).declaration.speed
     if name is not None and found.speed is not None:
         changes[name] = found.speed * np.linspace(0, 1, SPEEDS + 1)[1:]
-    return bool(np.all(stable(deciding_coefficients(found.vehicle.with_(**changes)))))
+    return bool(judge(found.vehicle.with_(**changes)).all())

@@ -19,7 +19,7 @@ from .critical import Critical, CriticalValues, critical
 from .few import few_criteria
 from .remedies import Remedy, remedies
 from .verdict import Verdict, verdict
-from .wording import describe
+from .wording import caveat, describe
 
 if TYPE_CHECKING:
     from ..motion.audit import Audit
@@ -75,6 +75,11 @@ class Analysis(Record):
         """The verdict in words."""
         return describe(self)
 
+    @property
+    def caveat(self) -> str:
+        """What the verdict leaves out where a law jumps or has a kink on the basic motion; empty where none does."""
+        return caveat(self.vehicle)
+
     def to_dict(self) -> dict[str, Any]:
         """Return the facts as plain data, in the documented schema; infinite and undefined numbers are ``None``."""
         info, model = self.vehicle.info, type(self.vehicle)
@@ -90,6 +95,7 @@ class Analysis(Record):
             "model": {"name": model.model_id(), "title": model.title()},
             "verdict": {
                 "sentence": self.sentence,
+                "caveat": self.caveat,
                 "stable": self.stable,
                 "state": self.verdict.state,
                 "static": self.verdict.static,
@@ -105,7 +111,9 @@ class Analysis(Record):
         }
 
     def __str__(self) -> str:
-        return f"{self.vehicle.info.name or type(self.vehicle).__name__}: {self.sentence}"
+        return f"{self.vehicle.info.name or type(self.vehicle).__name__}: {self.sentence}" + (
+            f"; {self.caveat}" if self.caveat else ""
+        )
 
     def _repr_html_(self) -> str:
         from ..results import notebook

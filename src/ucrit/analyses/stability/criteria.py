@@ -10,14 +10,18 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from ...core.contract.model import Model
 from ...core.errors import UcritError, near_match
 from ...core.formulas.codegen import build
 from ...core.numeric.cache import cached
 from ...core.numeric.compiled import direction as direction_of
+from ...core.numeric.reach import extremes
 from ...core.record import Record
 
 if TYPE_CHECKING:
@@ -76,6 +80,18 @@ class Criterion(Record):
         """Return the value of the left-hand side for a vehicle, an array where its parameters are arrays."""
         arguments = dict(zip(vehicle.values, vehicle.arguments(), strict=True))
         return self._function([arguments[name] for name in self.parameters])[0]
+
+    def holds(self, vehicle: Model) -> bool:
+        """Return whether a vehicle (with scalar parameters) meets it; exactly where doubles overflow."""
+        with np.errstate(all="ignore"):
+            value = self.value(vehicle)
+        if np.isfinite(value) and not extremes(vehicle):
+            return bool(value > 0)
+        exact = build(self.source, "criterion", exact=True)
+        try:
+            return bool(exact([Fraction(float(vehicle.values[name])) for name in self.parameters])[0] > 0)
+        except ArithmeticError:
+            return False
 
     def boundary(self, parameter: str) -> Boundary | None:
         """Return the closed form for one parameter, if there is one."""
@@ -152,7 +168,7 @@ class Criteria(Record):
 
     def failing(self, vehicle: Model) -> tuple[Criterion, ...]:
         """Return the conditions that a vehicle (with scalar parameters) does not meet."""
-        return tuple(c for c in self.conditions if not c.value(vehicle) > 0)
+        return tuple(c for c in self.conditions if not c.holds(vehicle))
 
 
 def criteria(

@@ -9,9 +9,9 @@ given numbers; all their roots are isolated and counted exactly.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -20,16 +20,19 @@ from ...core.contract.possible import allowed
 from ...core.errors import UcritError, near_match
 from ...core.numeric.compiled import compiled, direction
 from ...core.units import to_si
-from ..linear.modes import Mode, modes
+from ..linear.modes import Mode, mode_name, modes
 from ..results.convert import Series, Table, Tabular
 from .criteria import Boundary, criteria
 from .exact import exact_search
 from .scan import scan
+from .wording import caveat, moving
 
 NEAR = 1e-9
 """Share of a critical value by which a root through infinity is looked at beside it."""
 LIGHT = 299_792_458.0
 """Speed of light [m/s]."""
+GOING = {"flutter": "oscillation", "divergence": "divergence"}
+"""How the mode goes that becomes unstable, by the kind of change."""
 Edge = tuple[float, set[str]]
 
 
@@ -68,8 +71,8 @@ class Critical:
 
     @property
     def motion(self) -> str:
-        """What flutters or diverges: ``lateral oscillation``, ``sideslip motion``."""
-        return re.sub(" divergence$", " motion", self.mode)
+        """What flutters or diverges: ``sway``, ``yaw oscillation``, ``spin motion``."""
+        return moving(self.mode)
 
     def __str__(self) -> str:
         at = f" at {self.frequency_hz:.4g} Hz" if self.frequency_hz else ""
@@ -115,6 +118,10 @@ class CriticalValues(Tabular):
             stable.append(not stable[-1])
         return [(a, b) for a, b, good in zip(edges, edges[1:], stable, strict=False) if good]
 
+    def findings(self) -> dict[str, Any]:
+        """Return whether none can be missing, and what the equations leave out where a law jumps or has a kink."""
+        return {"exact": self.exact, "caveat": caveat(self.vehicle)}
+
     def table(self) -> Table:
         """Return one row for each critical value: value, kind, frequency, the stable side and the mode."""
         numbers = np.arange(1, len(self.values) + 1)
@@ -130,7 +137,8 @@ class CriticalValues(Tabular):
         return Table("critical values", self.vehicle, (Series("number", rows, numbers),), data, rows)
 
     def __str__(self) -> str:
-        return "\n".join(map(str, self.values)) or f"no critical value of {self.parameter} in the range"
+        told = "\n".join(map(str, self.values)) or f"no critical value of {self.parameter} in the range"
+        return told + (f"\n{left_out}" if (left_out := caveat(self.vehicle)) else "")
 
     def _repr_html_(self) -> str:
         from ..results import notebook
@@ -229,7 +237,8 @@ def _describe(vehicle: Model, name: str, value: float, kinds: set[str], stable: 
     closed = _closed_form(vehicle, name, value, kind)
     frequency = mode.frequency_hz if kind == "flutter" else 0.0
     unit = type(vehicle).declaration.parameters[name].unit
-    return Critical(name, value, unit, kind, frequency, stable, _named_by(mode) + _going(kind), closed)
+    called = mode_name(type(vehicle), mode.motion, GOING.get(kind, "motion"))
+    return Critical(name, value, unit, kind, frequency, stable, called, closed)
 
 
 def _fastest_beside(vehicle: Model, name: str, value: float, stable: str) -> Mode:
@@ -247,15 +256,6 @@ def _closed_form(vehicle: Model, name: str, value: float, kind: str) -> Boundary
         return None
     found = [b for c in conditions if c.failure == kind for b in c.boundaries if b.parameter == name]
     return next((b for b in found if _matches(b, vehicle, value)), None)
-
-
-def _named_by(mode: Mode) -> str:
-    """Return the motion that a mode is named after: ``wheel`` of ``wheel decay 2``."""
-    return re.sub(r" \w+( \d+)?$", "", mode.name)
-
-
-def _going(kind: str) -> str:
-    return {"flutter": " oscillation", "divergence": " divergence"}.get(kind, " motion")
 
 
 def crossing_mode(vehicle: Model) -> Mode:

@@ -138,6 +138,16 @@ def _by_numba(grid: Grid, tile: Tile, codes: Array) -> Array:
     return flat(grid, tile, codes[tile] == kernels.OPEN) if count else np.zeros(0, dtype=np.int64)
 
 
+def judge(vehicle: Model) -> Array:
+    """Tell whether a vehicle is stable, for every combination of its array parameters; shape of ``vehicle.dims``."""
+    shape = tuple(len(values) for values in vehicle.dims.values())
+    arguments = dict(zip(vehicle.values, map(np.asarray, vehicle.arguments()), strict=True))
+    varying = {n: x for n, x in arguments.items() if x.ndim} or dict([next(iter(arguments.items()))])
+    columns = {n: np.array(np.broadcast_to(x, shape), dtype=float).ravel() for n, x in varying.items()}
+    one = vehicle.with_(**{n: float(x[0]) for n, x in columns.items()})
+    return settle(one, columns).reshape(shape)
+
+
 def settle(vehicle: Model, columns: Mapping[str, Array]) -> Array:
     """Tell of single points, one value of each column, whether the vehicle is stable; shape (points,).
 

@@ -125,7 +125,7 @@ def locus(
     >>> from ucrit import load
     >>> result = locus(load("caravan"))
     >>> result.names[0], result.branches.shape[1]
-    ('lateral oscillation', 4)
+    ('sway', 4)
     """
     name = parameter_name(vehicle, parameter)
     if vehicle.dims:

@@ -19,6 +19,7 @@ from ...numerics.hurwitz import stable
 from ..results.convert import Series, Table, Tabular
 from ..results.digits import decimal_text, rounded
 from .critical import critical
+from .judge import judge
 
 Array = npt.NDArray[Any]
 
@@ -180,7 +181,9 @@ def _grid_stable(vehicle: Model, key: str, values: Array, speeds: Array | None) 
     if speeds is not None and name is not None:
         changes[name] = speeds
     changed = vehicle.with_(**changes)
-    good = np.broadcast_to(stable(deciding_coefficients(changed)), [len(d) for d in changed.dims.values()])
+    with np.errstate(all="ignore"):
+        found = stable(deciding_coefficients(changed))  # only searches: what is told is judged by `_stable`
+    good = np.broadcast_to(found, [len(d) for d in changed.dims.values()])
     axis = list(changed.dims).index(key)
     return np.asarray(good.all(axis=tuple(i for i in range(good.ndim) if i != axis)) & possible)
 
@@ -193,15 +196,14 @@ def _stable(vehicle: Model, speeds: Array | None) -> bool:
     tested = vehicle.with_(**{name: speeds[-1]})
     if compiled(type(vehicle), direction(tested)).order > EXACT_ORDER:
         fine = speeds[0] + (speeds[-1] - speeds[0]) * np.linspace(0, 1, FINE_SPEEDS)
-        return bool(stable(deciding_coefficients(vehicle.with_(**{name: fine}))).all())
+        return bool(judge(vehicle.with_(**{name: fine})).all())
     lo, hi = sorted((2 * speeds[0] - speeds[1], speeds[-1]))
     changes = critical(tested, name, lo, hi)
     return not len(changes) and changes.stable_at_lower and _stable_now(tested)
 
 
 def _stable_now(vehicle: Model) -> bool:
-    a = deciding_coefficients(vehicle)
-    return len(a) == 1 or bool(stable(a))  # with rigid positions alone nothing can grow
+    return bool(judge(vehicle).all())
 
 
 def _remedy(vehicle: Model, key: str, speeds: Array | None) -> Remedy:
@@ -232,7 +234,8 @@ def _scale(vehicle: Model, key: str, speeds: Array | None) -> float:
 
 def _nearest(vehicle: Model, key: str, present: float, step: float, speeds: Array | None) -> float | None:
     """Return the stable value nearest to the present one in one direction, or None."""
-    values = present + step * _offsets(vehicle, key, present, step)
+    with np.errstate(all="ignore"):  # values that are not finite are not allowed
+        values = present + step * _offsets(vehicle, key, present, step)
     good = _grid_stable(vehicle, key, values, speeds)
     for first in np.flatnonzero(good & ~np.r_[False, good[:-1]]):
         edge = _bisect(vehicle, key, values[first - 1] if first else present, values[first], speeds)

@@ -65,6 +65,27 @@ class RouthTest:
         either = ", perhaps after a change of all its signs," if self.either_sign else ""
         return "\n".join([f"stable{either} if and only if", *(f"    {c} > 0" for c in self.conditions)])
 
+    def to_dict(self) -> dict[str, Any]:
+        """Return the array and what follows from it as plain data; elements are texts, which are exact."""
+        array = self.array
+        return {
+            "schema": 1,
+            "polynomial": self.polynomial,
+            "variable": array.variable,
+            "positive": list(self.positive),
+            "rows": [
+                {"power": power, "elements": [str(x) for x in row]}
+                for power, row in zip(array.powers, array.rows, strict=True)
+            ],
+            "notes": list(array.notes),
+            "right_half_plane": array.right_half_plane,
+            "imaginary_axis": array.imaginary_axis,
+            "settled": self.settled,
+            "either_sign": self.either_sign,
+            "conditions": list(self.conditions),
+            "verdict": self.verdict,
+        }
+
     def __str__(self) -> str:
         table, long = _shown(self.array)
         taken = [f"with {', '.join(self.positive)} positive"] if self.positive else []

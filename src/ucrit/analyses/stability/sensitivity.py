@@ -160,7 +160,8 @@ def _slopes(vehicle: Model) -> tuple[Array, dict[str, Array]]:
     rigid = rigid_positions(vehicle, values)
     slopes = {}
     for name, dA in state_slopes(vehicle).items():
-        slope = np.einsum("...ki,...ij,...jk->...k", left, dA, right)
+        with np.errstate(all="ignore"):
+            slope = np.einsum("...ki,...ij,...jk->...k", left, dA, right)
         # Rigid positions stay at zero whatever the parameters.
         slopes[name] = np.where(rigid, 0, np.where(sure, slope, complex(np.nan, np.nan)))
     return values, slopes

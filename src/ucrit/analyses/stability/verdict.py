@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.numeric.compiled import coefficients, compiled, direction
+from ...core.numeric.compiled import compiled, direction
+from ...core.numeric.reach import characteristic, unusable
 from ...core.record import Record
 from ...numerics.routh import routh
 
@@ -69,7 +68,8 @@ def verdict(vehicle: Model) -> Verdict:
     """Judge a vehicle with scalar parameters by Routh's array of its characteristic polynomial.
 
     The coefficients are rounded once, to doubles; for those the counts are exact. A vehicle within rounding of
-    a boundary is judged as its rounded coefficients are.
+    a boundary is judged as its rounded coefficients are. Where parameters are so large or small that doubles overflow,
+    coefficients are exact.
 
     Examples
     --------
@@ -80,9 +80,9 @@ def verdict(vehicle: Model) -> Verdict:
     if vehicle.dims:
         raise UcritError("a verdict is about one vehicle: give scalar parameters, or use sweep")
     zeros = compiled(type(vehicle), direction(vehicle)).structural_zeros
-    a = [float(v) for v in coefficients(vehicle)][zeros:]
-    if not np.all(np.isfinite(a)):
-        raise UcritError(f"{type(vehicle).model_id()}: the equations are singular for these parameters")
+    a = characteristic(vehicle)
+    if not a[-1]:
+        raise unusable(vehicle)
     if len(a) == 1:
         return Verdict("neutral", "neutral", 0, 0, zeros)
     array = routh(a)

@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+import re
 from typing import TYPE_CHECKING
 
+from ...core.numeric.compiled import compiled, direction
 from ..results.digits import decimal_text, rounded
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from ...core.contract.model import Model
     from .analyze import Analysis
     from .critical import Critical
 
@@ -26,6 +29,28 @@ def speed_text(speed: float) -> str:
     """
     on_the_road = speed * 3.6
     return f"{speed:.4g} m/s ({on_the_road:{'.0f' if 1000 <= abs(on_the_road) < 1e6 else '.3g'}} km/h)"
+
+
+def caveat(vehicle: Model) -> str:
+    """Return what a linear verdict leaves out where laws jump or bend on the basic motion; empty where none does."""
+    found = compiled(type(vehicle), direction(vehicle)).corners
+    jumps, kinks = ([where for kind, where in found if kind == wanted] for wanted in ("jump", "kink"))
+    told = []
+    if jumps:
+        told.append(
+            f"a law jumps on the basic motion, at {_zeros(jumps)}, where it has no slope: the verdict leaves the jump "
+            "out, and small motions may be held or driven by it"
+        )
+    if kinks:
+        told.append(
+            f"a law has a kink on the basic motion, at {_zeros(kinks)}: the verdict takes the slope of one side, of "
+            "abs that of neither, and the motion may do otherwise on the other"
+        )
+    return "; ".join(told)
+
+
+def _zeros(where: list[str]) -> str:
+    return ", ".join(f"{text} = 0" for text in where)
 
 
 def _two_digits(value: float) -> str:
@@ -62,13 +87,21 @@ def describe(analysis: Analysis, say: Callable[[float], str] = speed_text) -> st
     return "; ".join([text, ", ".join(told)]) + _position(analysis)
 
 
+def moving(name: str) -> str:
+    """Return what runs away by the name of a mode that does.
+
+    >>> moving("capsize divergence"), moving("swivel divergence 2")
+    ('capsize motion', 'swivel motion 2')
+    """
+    return re.sub(r" divergence( \d+)?$", r" motion\1", name)
+
+
 def _grows(c: Critical) -> str:
-    subject, _, _ = c.mode.rpartition(" ")
     if c.kind == "flutter":
-        return f"the {subject} oscillation grows at {c.frequency_hz:.2g} Hz (flutter)"
+        return f"the {c.motion} grows at {c.frequency_hz:.2g} Hz (flutter)"
     if c.kind == "divergence":
-        return f"the {subject} motion runs away (divergence)"
-    return f"the {subject} motion grows without bound"
+        return f"the {c.motion} runs away (divergence)"
+    return f"the {c.motion} grows without bound"
 
 
 def _growth(analysis: Analysis) -> str:
@@ -77,11 +110,10 @@ def _growth(analysis: Analysis) -> str:
     if not growing:
         return "some motion grows at a lower speed"
     mode = growing[0]
-    subject, _, _ = mode.name.rpartition(" ")
     if mode.oscillates:
-        how = f"the {subject} oscillation grows at {mode.frequency_hz:.2g} Hz"
+        how = f"the {mode.name} grows at {mode.frequency_hz:.2g} Hz"
     else:
-        how = f"the {subject} motion runs away"
+        how = f"the {moving(mode.name)} runs away"
     return f"{how}, doubling in {_two_digits(mode.time_to_double)} s"
 
 

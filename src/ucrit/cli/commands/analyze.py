@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from ..output import json_option, print_json
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 
 if TYPE_CHECKING:
@@ -42,7 +43,7 @@ NOT_STABLE = 3
     help="Parameters that the criteria keep as symbols, such as U,a; numbers for the rest. If not given, all, or the "
     "few that matter most where all would be too long.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
+@json_option
 @click.option("--fail-if-unstable", is_flag=True, help="Leave with status 3 if not stable up to the speed.")
 def command(
     vehicle: str,
@@ -86,9 +87,7 @@ def command(
     if report is not None:
         _write(found, report, map_parameters)
     if as_json:
-        import json
-
-        click.echo(json.dumps(found.to_dict(), indent=2, allow_nan=False, ensure_ascii=False))
+        print_json(found)
     else:
         from ..render import show_analysis
         from ..terminal import terminal

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from ..output import PICTURES, write_picture
+from ..output import PICTURES, json_option, print_json, write_picture
 from ..parameters import Name
 
 
@@ -12,7 +12,7 @@ from ..parameters import Name
 @click.argument("subject", metavar="SUBJECT", type=Name("model", "vehicle", suffix=".bonds"))
 @click.option("-o", "--out", metavar="FILE", type=click.Path(), help="Draw the graph: .svg, .png or .pdf.")
 @click.option("--text", "as_text", is_flag=True, help="Print the graph as text, to be edited, and nothing else.")
-@click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
+@json_option
 def command(subject: str, out: str | None, as_text: bool, as_json: bool) -> None:
     """Show a bond graph: elements, bonds with their causality, findings, state equations.
 
@@ -44,9 +44,7 @@ def command(subject: str, out: str | None, as_text: bool, as_json: bool) -> None
         click.echo(found.text, nl=False)
         return
     if as_json:
-        import json
-
-        click.echo(json.dumps(found.to_dict(), indent=2, allow_nan=False, ensure_ascii=False))
+        print_json(found)
         return
     from ..render_bonds import show_bonds
     from ..terminal import terminal

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from ..output import to_stdout, writer, written
+from ..output import json_option, print_json, to_stdout, writer, written
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 from .sweep import refuse_both
 
@@ -32,8 +32,14 @@ from .sweep import refuse_both
     metavar="FILE",
     help="Write .csv, .nc (netCDF), .json, .mat or a .png, .svg, .pdf; else CSV on stdout.",
 )
+@json_option
 def command(
-    vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], tolerance: float | None, out: str | None
+    vehicle: str,
+    ranges: tuple[str, ...],
+    changes: tuple[str, ...],
+    tolerance: float | None,
+    out: str | None,
+    as_json: bool,
 ) -> None:
     """Find the curves over two, or the surface over three, parameters on which stability changes.
 
@@ -51,10 +57,13 @@ def command(
     """
     from ...analyses.regions.boundary import boundary
 
-    write = to_stdout if out is None else writer(out)
+    write = (print_json if as_json else to_stdout) if out is None else writer(out)
     subject = load_vehicle(vehicle, assignments(changes, "a=1.9"))
     read = assignments(ranges, '"U=20:130 km/h"')
     refuse_both(read, assignments(changes, "a=1.9"))
-    write(boundary(subject, tolerance=tolerance, **read))
-    if out is not None:
+    found = boundary(subject, tolerance=tolerance, **read)
+    write(found)
+    if out is not None and as_json:
+        print_json(found)
+    elif out is not None:
         written(out)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from ..output import json_option, print_json
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 from ..progress import progress
 
@@ -24,7 +25,10 @@ UNDECIDED = 1
 )
 @click.option("--boxes", type=int, default=100_000, show_default=True, help="Boxes to look at before giving up.")
 @click.option("--fail-if-unstable", is_flag=True, help="Leave with status 3 if refuted, 1 if undecided.")
-def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], boxes: int, fail_if_unstable: bool) -> int:
+@json_option
+def command(
+    vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], boxes: int, fail_if_unstable: bool, as_json: bool
+) -> int:
     """Prove that VEHICLE is stable for every value in the ranges, or find values for which it is not.
 
     The proof holds for all real numbers in the region: it is computed with intervals that are rounded outward, and
@@ -47,9 +51,12 @@ def command(vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], box
     subject = load_vehicle(vehicle, changed)
     with progress("boxes") as advance:
         found = certify(subject, boxes=boxes, progress=advance, **region)
-    from ..render_sure import show_certificate
-    from ..terminal import terminal
+    if as_json:
+        print_json(found)
+    else:
+        from ..render_sure import show_certificate
+        from ..terminal import terminal
 
-    show_certificate(terminal(), found)
+        show_certificate(terminal(), found)
     failing = {"refuted": NOT_STABLE, "undecided": UNDECIDED}.get(found.state, 0)
     return failing if fail_if_unstable else 0

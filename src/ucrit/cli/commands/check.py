@@ -7,6 +7,7 @@ from typing import Any
 
 import click
 
+from ..output import json_option, print_json
 from ..parameters import Name
 
 FAILED = 1
@@ -15,7 +16,8 @@ FAILED = 1
 @click.command("check", short_help="Check a model against units, literature, symmetry, energy.")
 @click.argument("model", type=Name("model", "vehicle", suffix=".py"))
 @click.option("--published", metavar="FILE.toml", type=click.Path(), help="Equations and numbers to compare with.")
-def command(model: str, published: str | None) -> int:
+@json_option
+def command(model: str, published: str | None, as_json: bool) -> int:
     """Check MODEL: units, published equations and numbers, further derivations, symmetry, energy.
 
     MODEL is a model's name, a vehicle, or a Python file, all of whose models are then checked
@@ -44,6 +46,9 @@ def command(model: str, published: str | None) -> int:
         found, vehicle = resolve(model)
         subjects = [found if vehicle is None else vehicle]
     reports = [check_model(subject, published=published) for subject in subjects]
+    if as_json:
+        print_json({"schema": 1, "reports": [report.to_dict() for report in reports]})
+        return 0 if all(report.ok for report in reports) else FAILED
     for report in reports:
         show_report(terminal(), report)
     return 0 if all(report.ok for report in reports) else FAILED

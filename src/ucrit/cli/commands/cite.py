@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import click
 
+from ..output import json_option, print_json
 from ..parameters import Name
 
 
 @click.command("cite", short_help="List the sources of vehicles, models and analyses.")
 @click.argument("subjects", metavar="[NAME]...", nargs=-1, type=Name("vehicle", "model", "tire", suffix=".toml"))
 @click.option("--bibtex", is_flag=True, help="Print BibTeX entries of the works, and nothing else.")
-@click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
+@json_option
 def command(subjects: tuple[str, ...], bibtex: bool, as_json: bool) -> None:
     """List the sources of what was used, and how to cite ucrit itself.
 
@@ -34,9 +35,7 @@ def command(subjects: tuple[str, ...], bibtex: bool, as_json: bool) -> None:
         click.echo(found.bibtex(), nl=False)
         return
     if as_json:
-        import json
-
-        click.echo(json.dumps(found.to_dict(), indent=2, ensure_ascii=False))
+        print_json(found)
         return
     from ..render_model import show_citations
     from ..terminal import terminal

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from ..output import json_option, print_json
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
     help="With one vehicle: compare it with itself, changed; may be repeated.",
 )
 @click.option("--upto", metavar="SPEED", help="Judge all up to this speed; each its own by default.")
-@click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
+@json_option
 def command(vehicles: tuple[str, ...], changes: tuple[str, ...], upto: str | None, as_json: bool) -> None:
     """Compare vehicles: verdicts, critical speeds, modes, and the parameters in which they differ.
 
@@ -51,9 +52,7 @@ def command(vehicles: tuple[str, ...], changes: tuple[str, ...], upto: str | Non
     comparison = compare(*subjects)
     found = [analyze(subject) for subject in subjects]
     if as_json:
-        import json
-
-        click.echo(json.dumps(_data(comparison, found), indent=2, allow_nan=False, ensure_ascii=False))
+        print_json(_data(comparison, found))
     else:
         _show(comparison, found)
 
@@ -94,6 +93,8 @@ def _show(comparison: Comparison, found: list[Analysis]) -> None:
     for subject, one in zip(comparison.subjects, found, strict=True):
         page.line((subject.name, "bold"))
         page.paragraph(f"{one.sentence[:1].upper()}{one.sentence[1:]}.", indent=2)
+        if one.caveat:
+            page.paragraph(f"But {one.caveat}.", "yellow", indent=2)
     page.line()
     for line in str(comparison).splitlines():
         page.line(line)

@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..output import writer
+from ..output import json_option, print_json, writer
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 from ..progress import progress
 
 if TYPE_CHECKING:
+    from ...analyses.nonlinear.basin import Basin
     from ...analyses.nonlinear.cycles import LimitCycles
 
 ROWS = 12
@@ -40,6 +41,7 @@ ROWS = 12
 @click.option("--at", metavar="VALUE", help="Tell the cycles at this value; the vehicle's own by default.")
 @click.option("--basin", "disturbed", metavar="STATE", help="Simulate how large a disturbance of STATE persists.")
 @click.option("-o", "--out", metavar="FILE", help="Draw (.png, .svg, .pdf) or write (.csv, .json, .mat, .nc).")
+@json_option
 def command(
     vehicle: str,
     changes: tuple[str, ...],
@@ -50,6 +52,7 @@ def command(
     at: str | None,
     disturbed: str | None,
     out: str | None,
+    as_json: bool,
 ) -> None:
     """Follow the limit cycles that begin where VEHICLE starts to oscillate.
 
@@ -77,12 +80,18 @@ def command(
         found = limit_cycles(subject, along, lower, upper, start=start, progress=advance)
     value = _value(found, at)
     told = _told(found, value, at is not None)
-    border = None
+    border: Basin | None = None
     if disturbed is not None:
         with progress("simulations") as advance:
             border = basin(subject.with_(**{found.parameter: value}), disturbed, found, progress=advance)
     if write is not None:
         write(found)
+    if as_json:
+        answer = found.to_dict()
+        if border is not None:
+            answer["findings"]["basin"] = border.to_dict()
+        print_json(answer)
+        return
     _show(found, [*told, *([] if border is None else [str(border)])], out)
 
 

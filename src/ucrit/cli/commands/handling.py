@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from ..output import writer, written
+from ..output import json_option, print_json, writer, written
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 
 
@@ -29,6 +29,7 @@ from ..parameters import Name, assignments, complete_parameters, load_vehicle
     metavar="FILE",
     help="Draw the diagram (.png, .svg, .pdf) or write its table (.csv, .json, .mat, .nc).",
 )
+@json_option
 def command(
     vehicle: str,
     changes: tuple[str, ...],
@@ -38,6 +39,7 @@ def command(
     upto: str | None,
     slip: str,
     out: str | None,
+    as_json: bool,
 ) -> None:
     """Follow the steady turns of VEHICLE to what its tires can do.
 
@@ -67,6 +69,9 @@ def command(
     result = handling_diagram(car, slip=slip, radius=radius, angle=steer, upto=upto)
     if write is not None:
         write(result)
+    if as_json:
+        print_json(result)
+        return
     click.echo(result)
     if out is not None:
         print()

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import click
 
+from ..output import json_option, print_json
+
 
 @click.command("list", short_help="List the models, vehicles and controllers that are shipped.")
 @click.argument("kind", required=False, type=click.Choice(["models", "vehicles", "controllers"]))
-@click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
+@json_option
 def command(kind: str | None, as_json: bool) -> None:
     """List the models, the vehicles and the controllers that are shipped, one a line.
 
@@ -26,9 +28,8 @@ def command(kind: str | None, as_json: bool) -> None:
     found = listing(kind)
     if as_json:
         import dataclasses
-        import json
 
-        click.echo(json.dumps({"schema": 1, **dataclasses.asdict(found)}, indent=2, ensure_ascii=False))
+        print_json({"schema": 1, **dataclasses.asdict(found)})
         return
     from ..render_model import show_listing
     from ..terminal import terminal

@@ -6,9 +6,9 @@ from typing import Any
 
 import click
 
-from ..output import PICTURES, save, writer, written
+from ..output import PICTURES, json_option, print_json, save, writer, written
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
-from .sweep import EXAMPLE, ZARR, refuse_both, stream_to
+from .sweep import EXAMPLE, ZARR, refuse_both, refuse_json, stream_to
 
 TEXTS = (".csv", ".json")
 MAX_ROWS = 5_000_000
@@ -37,8 +37,15 @@ MAX_ROWS = 5_000_000
 @click.option(
     "-o", "--out", metavar="FILE", help="Draw a .svg, .png or .pdf, or write .csv, .nc (netCDF), .json, .mat, .zarr."
 )
+@json_option
 def command(
-    vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], margins: bool, engine: str, out: str | None
+    vehicle: str,
+    ranges: tuple[str, ...],
+    changes: tuple[str, ...],
+    margins: bool,
+    engine: str,
+    out: str | None,
+    as_json: bool,
 ) -> None:
     """Judge VEHICLE for every combination of two parameters' values, or of more, and tell what share is stable.
 
@@ -65,6 +72,7 @@ def command(
     read, changed = assignments(ranges, EXAMPLE), assignments(changes, "a=1.9")
     refuse_both(read, changed)
     if out is not None and out.endswith(ZARR):
+        refuse_json(as_json)
         if margins or engine != "auto":
             raise UcritError("a map in a .zarr store has verdicts only, computed by the engine 'auto'")
         stream_to(vehicle, read, changed, out, "map", None)
@@ -87,6 +95,9 @@ def command(
         )
     if write is not None:
         write(result)
+    if as_json:
+        print_json(result)
+        return
     from ..render_map import show_map
     from ..terminal import terminal
 

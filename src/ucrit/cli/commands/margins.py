@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from ..output import json_option, print_json
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 
 
@@ -22,8 +23,9 @@ from ..parameters import Name, assignments, complete_parameters, load_vehicle
 @click.option(
     "-o", "--out", metavar="FILE", help="Draw them over a range (.png, .svg, .pdf) or write a table (.csv, .json, ...)."
 )
+@json_option
 def command(
-    vehicle: str, ranges: tuple[str, ...], chosen: str | None, changes: tuple[str, ...], out: str | None
+    vehicle: str, ranges: tuple[str, ...], chosen: str | None, changes: tuple[str, ...], out: str | None, as_json: bool
 ) -> None:
     """Tell by how much the gain, the phase and the delay of the control loop may change before it is unstable.
 
@@ -39,8 +41,8 @@ def command(
 
     Exit status: 0 done; 2 wrong input.
     """
-    from ...analyses.linear.margins import driven_inputs, margins
     from ...analyses.regions.sweep import read_ranges
+    from ...analyses.stability.margins import driven_inputs, margins
     from ...core.errors import UcritError
     from ..output import to_stdout, writer, written
     from ..terminal import Page, terminal, vehicle_head
@@ -50,16 +52,20 @@ def command(
     names = [chosen] if chosen else driven_inputs(type(subject))
     read = assignments(ranges, '"U=20:130:12 km/h"')
     spans = read_ranges(subject, read)
-    if write is not None and len(names) > 1:
-        raise UcritError(f"a file holds the margins at one input: choose --input {' or --input '.join(names)}")
+    if (write is not None or as_json) and len(names) > 1:
+        what = "JSON" if as_json else "a file"
+        raise UcritError(f"{what} holds the margins at one input: choose --input {' or --input '.join(names)}")
     page = Page(terminal())
-    if write is None and not spans:
+    if write is None and not as_json and not spans:
         vehicle_head(page, subject)
         page.line()
     for name in names:
         found = margins(subject.with_(**spans), name)
         if write is not None and out is not None:
             write(found)
+        if as_json:
+            print_json(found)
+        elif write is not None and out is not None:
             written(out)
         elif spans:
             to_stdout(found)

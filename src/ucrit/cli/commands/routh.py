@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import click
 
+from ..output import json_option, print_json
+
 
 @click.command("routh", short_help="Routh's array of a polynomial, with numbers or symbols.")
 @click.argument("polynomial")
 @click.option("--variable", metavar="NAME", default="s", show_default=True, help="Name of the variable.")
 @click.option("--positive", metavar="NAMES", default="", help='Symbols that can only be positive: "m,c".')
-def command(polynomial: str, variable: str, positive: str) -> None:
+@json_option
+def command(polynomial: str, variable: str, positive: str, as_json: bool) -> None:
     """Show Routh's array of POLYNOMIAL, the number of unstable roots and, for symbols, the conditions.
 
     ^ is a power, and 2 s or a(b + c) a product.
@@ -27,4 +30,8 @@ def command(polynomial: str, variable: str, positive: str) -> None:
     """
     from ...analyses.stability.routh import routh
 
-    click.echo(routh(polynomial, variable, positive.replace(",", " ").split()))
+    found = routh(polynomial, variable, positive.replace(",", " ").split())
+    if as_json:
+        print_json(found)
+    else:
+        click.echo(found)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import click
 
+from ..output import json_option, print_json
 from ..parameters import Name
 
 
@@ -16,7 +17,7 @@ from ..parameters import Name
     help="Parameters that the criteria keep as symbols, such as U,a; numbers for the rest. If not given, all, or the "
     "few that matter most where all would be too long.",
 )
-@click.option("--json", "as_json", is_flag=True, help="Print plain data (JSON) and nothing else.")
+@json_option
 def command(subject: str, free: str, as_json: bool) -> None:
     """Show parameters, variables, equations of motion, linear matrices, criteria and sources.
 
@@ -43,9 +44,7 @@ def command(subject: str, free: str, as_json: bool) -> None:
         raise click.UsageError("--free chooses symbols of a vehicle's criteria; a controller alone has none")
     found = describe_controller(subject) if law else show(subject, free=free)
     if as_json:
-        import json
-
-        click.echo(json.dumps(found.to_dict(), indent=2, allow_nan=False, ensure_ascii=False))
+        print_json(found)
         return
     from ...analyses.about.show import ModelDescription
     from ..render_model import show_controller, show_model

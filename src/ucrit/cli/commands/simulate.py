@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..output import writer
+from ..output import json_option, print_json, writer
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 from ..progress import progress
 
@@ -53,6 +53,7 @@ FILMS = (".gif", ".mp4", ".html")
     multiple=True,
     help="Write .csv, .nc, .json or .mat (numbers), .png, .svg or .pdf (curves), .gif, .mp4 or .html (animation).",
 )
+@json_option
 def command(
     vehicle: str,
     until: str,
@@ -64,6 +65,7 @@ def command(
     tolerance: float | None,
     enlarge: float,
     outputs: tuple[str, ...],
+    as_json: bool,
 ) -> None:
     """Follow the non-linear motion of VEHICLE from time 0 and tell events, peaks and the end.
 
@@ -108,6 +110,9 @@ def command(
     found = found.at(np.linspace(0, found.times[-1], points))
     for write in writers:
         write(found)
+    if as_json:
+        print_json(found)
+        return
     show_motion(terminal(), found, until, outputs)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import click
 
-from ..output import to_stdout, writer, written
+from ..output import json_option, print_json, to_stdout, writer, written
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 from ..progress import progress
 
@@ -27,8 +27,14 @@ EXAMPLE = '"U=20:130:12 km/h"'
 )
 @click.option("-o", "--out", metavar="FILE", help="Write .csv, .nc (netCDF), .json, .mat or .zarr; else CSV on stdout.")
 @click.option("--scheduler", metavar="ADDRESS", help="Let the workers of this Dask scheduler compute (only to .zarr).")
+@json_option
 def command(
-    vehicle: str, ranges: tuple[str, ...], changes: tuple[str, ...], out: str | None, scheduler: str | None
+    vehicle: str,
+    ranges: tuple[str, ...],
+    changes: tuple[str, ...],
+    out: str | None,
+    scheduler: str | None,
+    as_json: bool,
 ) -> None:
     """Tabulate stability, growth, damping and eigenvalues for every combination of parameters.
 
@@ -55,16 +61,19 @@ def command(
     read, changed = assignments(ranges, EXAMPLE), assignments(changes, "a=1.9")
     refuse_both(read, changed)
     if out is not None and out.endswith(ZARR):
+        refuse_json(as_json)
         stream_to(vehicle, read, changed, out, "sweep", scheduler)
         return
     if scheduler is not None:
         raise click.UsageError("--scheduler needs a store that workers can write to: give -o FILE.zarr too")
-    write = to_stdout if out is None else writer(out, pictures=(), more={ZARR: to_stdout})
+    write = (print_json if as_json else to_stdout) if out is None else writer(out, pictures=(), more={ZARR: to_stdout})
     subject = load_vehicle(vehicle, changed)
     with progress("sweep") as advance:
         result = sweep(subject, progress=advance, **read)
     write(result)
-    if out is not None:
+    if out is not None and as_json:
+        print_json(result)
+    elif out is not None:
         written(out)
 
 
@@ -78,6 +87,14 @@ def stream_to(
     with progress(kind) as advance:
         stream(subject, store, kind=kind, client=scheduler, progress=advance, **ranges)
     written(store)
+
+
+def refuse_json(as_json: bool) -> None:
+    """Refuse to print what may be larger than memory."""
+    from ...core.errors import UcritError
+
+    if as_json:
+        raise UcritError("--json prints a result that is held in memory, a .zarr store may be larger: give one of them")
 
 
 def refuse_both(ranges: dict[str, Any], changes: dict[str, Any]) -> None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..output import writer, written
+from ..output import json_option, print_json, writer, written
 from ..parameters import Name, assignments
 
 if TYPE_CHECKING:
@@ -19,8 +19,9 @@ if TYPE_CHECKING:
 @click.option("--set", "changes", metavar="NAME=VALUE", multiple=True, help="Set a parameter; may be repeated.")
 @click.option("--road", "roads", metavar="NAME=FACTOR", multiple=True, help="Friction of a road: ice=0.1; repeatable.")
 @click.option("--out", "-o", metavar="FILE", help="Write curves: .png .svg .pdf; .csv .json .mat .nc.")
+@json_option
 def command(
-    tire: str, loads: tuple[str, ...], changes: tuple[str, ...], roads: tuple[str, ...], out: str | None
+    tire: str, loads: tuple[str, ...], changes: tuple[str, ...], roads: tuple[str, ...], out: str | None, as_json: bool
 ) -> None:
     """Show version, units and axes of a tire file, and what the tire does under some loads.
 
@@ -47,9 +48,13 @@ def command(
     factors = assignments(roads, "ice=0.1", "road")
     surfaces = {name: to_si(value, "1", f"friction factor of road {name}") for name, value in factors.items()} or None
     curves = tire_curves(part, chosen, surfaces)
-    _show(curves, tire)
-    if write is not None and out is not None:
+    if write is not None:
         write(curves)
+    if as_json:
+        print_json(curves)
+        return
+    _show(curves, tire)
+    if out is not None:
         print()
         written(out)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from ..output import writer, written
+from ..output import json_option, print_json, writer, written
 from ..parameters import Name, assignments, complete_parameters, load_vehicle
 from ..progress import progress
 
@@ -29,6 +29,7 @@ from ..progress import progress
     metavar="FILE",
     help="Write the vehicles drawn (.csv .nc .json .mat) or a picture (.svg .png .pdf).",
 )
+@json_option
 def command(
     vehicle: str,
     changes: tuple[str, ...],
@@ -37,6 +38,7 @@ def command(
     seed: int,
     indices: bool,
     out: str | None,
+    as_json: bool,
 ) -> None:
     """Draw many vehicles from the tolerances in VEHICLE's file and tell how their critical speeds are distributed.
 
@@ -61,6 +63,11 @@ def command(
     subject = load_vehicle(vehicle, assignments(changes, 'a=1.9 or "m=2 t"'))
     with progress("vehicles") as advance:
         found = uncertainty(subject, samples=samples, seed=seed, upto=upto, indices=indices, progress=advance)
+    if as_json:
+        if write is not None:
+            write(found)
+        print_json(found)
+        return
     from ..render_sure import show_uncertainty
     from ..terminal import terminal
 

@@ -13,6 +13,7 @@ one of three ways (argument names choose what is passed; ``x`` values, ``dx`` an
 ``possible(self)`` says what values of several parameters may be together (see `ucrit.core.contract.possible`).
 ``events(self, x, dx, ddx, u)`` returns what shall be noticed along the motion (see `ucrit.core.contract.events`),
 ``drawing(self, x, u)`` what the vehicle looks like (see `ucrit.core.contract.drawing`).
+Two further class attributes say what modes are called: ``mode_names`` and ``one_mode_each`` (see `Modes`).
 Any method named ``equations_<how>`` is a further derivation of the same vehicle, compared with the first; a bond graph,
 ``bond_graph(self, u)``, is one by `ucrit.bondgraph.equations_bond_graph`.
 """
@@ -20,64 +21,22 @@ Any method named ``equations_<how>`` is a further derivation of the same vehicle
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 from types import MappingProxyType
-from typing import Any, Self, dataclass_transform
+from typing import Any, ClassVar, Self, dataclass_transform
 
 import numpy as np
 
-from ..errors import ModelError, UcritError, near_match
+from ..errors import UcritError, near_match
 from ..made import made, reference, resolve
-from .declare import Input, Output, Parameter, Quantity, Variable, param, speed
-from .part import Part, Slot
+from .collect import Declaration, declared
+from .declare import param, speed
+from .methods import ARGUMENTS, check_methods
+from .mode_names import check_mode_names
+from .part import Part
 from .possible import check_together
 from .tolerances import Tolerances
-
-ARGUMENTS = {
-    "equations": ("x", "dx", "ddx", "u"),
-    "kinetic_energy": ("x", "dx"),
-    "potential_energy": ("x",),
-    "forces": ("x", "dx", "u"),
-    "constraints": ("x", "dx"),
-    "matrices": (),
-    "outputs": ("x", "dx", "ddx", "u"),
-    "events": ("x", "dx", "ddx", "u"),
-    "drawing": ("x", "u"),
-    "basic_motion": (),
-    "bond_graph": ("u",),
-}
-STATEMENTS = ("equations", "kinetic_energy", "matrices", "closed_loop")
-
-
-class Names:
-    """The values of one group of declared names, read as attributes; an unknown name gets a near match."""
-
-    def __init__(self, group: str, values: Mapping[str, Any]) -> None:
-        self._group = group
-        self.__dict__.update(values)
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("__"):
-            raise AttributeError(name)
-        known = [key for key in self.__dict__ if not key.startswith("_")]
-        raise ModelError(f"the equations use '{self._group}.{name}', which is not declared{near_match(name, known)}")
-
-
-@dataclass(frozen=True)
-class Declaration:
-    """What a model class declares, in the order of its lines."""
-
-    parameters: Mapping[str, Parameter]
-    variables: Mapping[str, Variable]
-    inputs: Mapping[str, Input]
-    outputs: Mapping[str, Output]
-    slots: Mapping[str, Slot] = field(default_factory=dict)
-
-    @property
-    def speed(self) -> str | None:
-        """Name of the speed parameter, if the model has one."""
-        return next((name for name, p in self.parameters.items() if p.is_speed), None)
 
 
 @dataclass(frozen=True)
@@ -101,6 +60,8 @@ class Model:
 
     declaration: Declaration = Declaration({}, {}, {}, {})
     info: Info = Info()
+    mode_names: ClassVar[Mapping[str, str]] = MappingProxyType({})
+    one_mode_each: ClassVar[bool] = False
     _values: Mapping[str, float | np.ndarray[Any, Any]]
     _shared: Mapping[str, str]
     _arguments: Mapping[str, tuple[str, ...]] = MappingProxyType(ARGUMENTS)
@@ -109,8 +70,10 @@ class Model:
 
     def __init_subclass__(cls, **options: Any) -> None:
         super().__init_subclass__(**options)
-        cls.declaration = declared(cls)
+        cls.declaration = declared(cls, Model)
         check_methods(cls)
+        if "mode_names" in vars(cls):
+            check_mode_names(cls.__name__, cls.mode_names, cls.declaration.variables.values())
         cls.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
             [
                 inspect.Parameter(
@@ -288,86 +251,3 @@ def _short(value: float | np.ndarray[Any, Any]) -> str:
     if isinstance(value, np.ndarray):
         return f"[{value[0]:.6g} ... {value[-1]:.6g}, {value.size} values]"
     return f"{value:.6g}"
-
-
-@dataclass
-class _Found:
-    by_name: dict[str, Any] = field(default_factory=dict)
-
-    def of(self, kind: type[Quantity]) -> Any:
-        return MappingProxyType({k: v for k, v in self.by_name.items() if isinstance(v, kind)})
-
-
-def declared(cls: type[Model]) -> Declaration:
-    """Collect what a class and its bases declare."""
-    found = _Found()
-    for base in reversed(cls.__mro__):
-        for name, value in vars(base).items():
-            if isinstance(value, Quantity):
-                if hasattr(Model, name) or name.startswith("_"):
-                    raise ModelError(f"{cls.__name__}: a quantity cannot be called '{name}', that name is taken")
-                found.by_name.pop(name, None)
-                found.by_name[name] = replace(value, name=name)
-            elif isinstance(value, Slot):
-                found.by_name[name] = replace(value, name=name)
-            elif name in found.by_name:
-                found.by_name.pop(name)  # a base's parameter fixed to a number, or a variable removed
-    slots = MappingProxyType({k: v for k, v in found.by_name.items() if isinstance(v, Slot)})
-    for slot in slots.values():
-        setattr(cls, slot.name, slot)
-    found = _Found(_with_parts(cls, found.by_name))
-    declaration = Declaration(found.of(Parameter), found.of(Variable), found.of(Input), found.of(Output), slots)
-    if sum(p.is_speed for p in declaration.parameters.values()) > 1:
-        raise ModelError(f"{cls.__name__}: only one parameter can be the speed")
-    return declaration
-
-
-def _with_parts(cls: type[Model], declared: Mapping[str, Any]) -> dict[str, Any]:
-    """Put the parameters of each slot's law in the slot's place."""
-    flat: dict[str, Any] = {}
-    for name, value in declared.items():
-        for key, quantity in (value.declared if isinstance(value, Slot) else {name: value}).items():
-            if key in flat or (isinstance(value, Slot) and key in declared):
-                raise ModelError(f"{cls.__name__}: '{key}' is declared twice, once as a parameter of '{name}'")
-            flat[key] = quantity
-    return flat
-
-
-def check_methods(cls: type[Model]) -> None:
-    """Raise `ModelError` where a class states no motion, or a method asks for an argument that there is not."""
-    stated = [name for name in STATEMENTS if hasattr(cls, name)]
-    if cls.declaration.variables and not stated:
-        raise ModelError(f"{cls.__name__}: state the motion by one of {', '.join(STATEMENTS)}")
-    for name in dir(cls):
-        key = "equations" if name.startswith("equations_") else name
-        if (allowed := cls._arguments.get(key)) and callable(getattr(cls, name)):
-            for argument in argument_names(getattr(cls, name)):
-                if argument not in allowed:
-                    raise ModelError(
-                        f"{cls.__name__}.{name}: there is no argument '{argument}'{near_match(argument, allowed)}"
-                    )
-
-
-def is_current(model: type[Model], method: str) -> bool:
-    """Tell whether a method is no older in the line of classes than the statement of motion in use.
-
-    One that a base class wrote for its own equations says nothing about a class that states new ones.
-    """
-    lines = [vars(base) for base in model.__mro__]
-    stated = next(i for i, names in enumerate(lines) if any(name in names for name in STATEMENTS))
-    return any(method in names for names in lines[: stated + 1])
-
-
-def argument_names(method: Callable[..., Any]) -> list[str]:
-    """Names of a method's arguments without ``self``."""
-    return [name for name in inspect.signature(method).parameters if name != "self"]
-
-
-def call(method: Callable[..., Any], groups: Mapping[str, Names]) -> Any:
-    """Call a method of a model with the groups of values that its argument names ask for."""
-    return method(**{name: groups[name] for name in argument_names(method)})
-
-
-def as_tuple(value: Any) -> tuple[Any, ...]:
-    """Return equations as a tuple, also when a method returns a single one."""
-    return tuple(value) if isinstance(value, Iterable) else (value,)

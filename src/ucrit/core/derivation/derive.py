@@ -10,6 +10,7 @@ import sympy as sp
 from ..contract.model import Model
 from ..errors import UcritError
 from ..formulas.codegen import generate, renaming, write
+from ..formulas.corners import corners
 from ..formulas.plane import computable
 from ..formulas.slopes import staged_slopes
 from .linear import LinearSystem, linear_system
@@ -61,6 +62,13 @@ def size_facts(model: type[Model], direction: int) -> dict[str, Any]:
         "magnitudes": generate("magnitudes", [parameters, names], magnitudes),
         "units": units,
     }
+
+
+def corner_facts(model: type[Model], direction: int) -> list[tuple[str, str]]:
+    """Derive where the equations jump or bend on the basic motion."""
+    traced = symbolic(model, direction).traced
+    by = [symbol for chain in traced.q for symbol in chain]
+    return corners(traced.residuals, by, dict(traced.basic))
 
 
 def slope_facts(model: type[Model], direction: int) -> dict[str, Any]:

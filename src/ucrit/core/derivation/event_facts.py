@@ -8,7 +8,8 @@ from typing import Any
 import sympy as sp
 
 from ..contract.events import WAYS, Event
-from ..contract.model import Model, call
+from ..contract.methods import call
+from ..contract.model import Model
 from ..errors import ModelError, near_match
 from ..formulas.codegen import generate
 from .dimensions import check_sum

@@ -6,7 +6,8 @@ from typing import Any
 
 import sympy as sp
 
-from ..contract.model import Model, Names, call
+from ..contract.methods import Names, call
+from ..contract.model import Model
 from ..errors import ModelError
 
 

@@ -10,12 +10,16 @@ from typing import Any
 import sympy as sp
 
 from ..contract.declare import Parameter
-from ..contract.model import STATEMENTS, Model, Names, as_tuple, call
+from ..contract.methods import STATEMENTS, Names, as_tuple, call
+from ..contract.model import Model
 from ..errors import ModelError
 from ..formulas.settle import settled
 from .dimensions import check_dimensions
 
 Expr = Any
+
+OWN = ("hat", "known", "d")
+"""Endings of parameters that a controller has values of its own for: of observers, laws and references."""
 
 
 @dataclass(frozen=True)
@@ -224,6 +228,21 @@ def _check_basic_motion(traced: Traced) -> None:
     for number, residual in enumerate(settled(traced.residuals, traced.basic), 1):
         left = residual.xreplace(dict(traced.basic))
         if left.has(sp.zoo, sp.nan, sp.oo) or (left != 0 and sp.simplify(left) != 0):
+            own = _own_values(traced, left)
+            if own:
+                raise ModelError(
+                    f"{traced.model.model_id()}: with {', '.join(own)} of its own a controller has another basic "
+                    f"motion than the vehicle; let it share {', '.join(own.values())}"
+                )
             raise ModelError(
                 f"{traced.model.model_id()}: equation {number} does not hold on the basic motion, {left} is left"
             )
+
+
+def _own_values(traced: Traced, left: Expr) -> dict[str, str]:
+    """Return parameters such as ``m_hat`` that differ from ``m``, if that is all that is wrong with an equation."""
+    found = [(s, s.name.rpartition("_")) for s in traced.parameters.values() if s in left.free_symbols]
+    shared = {s: name for s, (name, _, ending) in found if ending in OWN and name in traced.parameters}
+    own = {s: traced.parameters[name] for s, name in shared.items()}
+    holds = bool(own) and sp.simplify(left.xreplace(own)) == 0
+    return {s.name: other.name for s, other in own.items()} if holds else {}

@@ -59,6 +59,13 @@ class Compiled:
         """Sources of functions that bound the coefficients' sizes, and rounding units: `ucrit.core.numeric.bounds`."""
         return cached(self.model, f"sizes{self.direction:+d}", lambda: derive_facts("size", self.model, self.direction))
 
+    @cached_property
+    def corners(self) -> list[tuple[str, str]]:
+        """Where a law jumps or has a kink on the basic motion: ``("jump", "v")`` where v vanishes."""
+        piece = f"corners{self.direction:+d}"
+        found = cached(self.model, piece, lambda: derive_facts("corner", self.model, self.direction))
+        return [(kind, where) for kind, where in found]
+
     @property
     def order(self) -> int:
         """Number of states, equal to the degree of the characteristic polynomial."""
@@ -184,7 +191,8 @@ class Compiled:
         slopes = {}
         for name, change in zip(self.model.declaration.parameters, changes, strict=True):
             dL, dR = _stack([change.get(i, 0.0) for i in range(count)], shapes, _shape(arguments))
-            slopes[name] = pick @ np.linalg.solve(L, dR - dL @ z)
+            with np.errstate(all="ignore"):
+                slopes[name] = pick @ np.linalg.solve(L, dR - dL @ z)
         return slopes
 
 

@@ -11,10 +11,10 @@ import numpy.typing as npt
 from ...control import broken, driven
 from ...core.contract.model import Model
 from ...core.errors import UcritError
-from ...core.numeric.compiled import deciding_coefficients, state_space
-from ...numerics.hurwitz import stable
+from ...core.numeric.compiled import state_space
 from ...numerics.loops import from_roots, loop_margins
 from ..results.convert import Series, Table, Tabular, unit_of
+from .judge import judge
 
 Array = npt.NDArray[Any]
 
@@ -51,6 +51,10 @@ class Margins(Tabular):
     phase: Array
     delay: Array
     disk: Array
+
+    def findings(self) -> dict[str, Any]:
+        """Return the input at which the loop is cut, and the margins in words."""
+        return {"input": self.input, "sentence": str(self)}
 
     def table(self) -> Table:
         """Return the margins over the vehicle's array parameters."""
@@ -135,6 +139,6 @@ def margins(vehicle: Model, input: str | None = None) -> Margins:
     n = np.where(np.abs(n) > 1e-13 * np.abs(d).max(axis=-1, keepdims=True), n, 0.0)
     found = loop_margins(n, d)
     shape = tuple(len(v) for v in vehicle.dims.values())
-    good = np.broadcast_to(np.asarray(stable(deciding_coefficients(vehicle))), shape)
+    good = judge(vehicle)
     values = [np.where(good, np.broadcast_to(v, shape), np.nan) for v in found._replace(delay=found.delay / size)]
     return Margins(vehicle, input, good, *values)
