@@ -77,7 +77,7 @@ def certify(
     --------
     >>> from ucrit import certify, load
     >>> print(certify(load("caravan"), m=(1150, 1250), U="36:54 km/h"))
-    stable for every m from 1150 to 1250 kg and every U from 10 to 15 m/s (54 km/h): proved with 3 boxes
+    stable for every m from 1150 to 1250 kg and every U from 10 to 15 m/s (36 to 54 km/h): proved with 3 boxes
     >>> certify(load("caravan"), U=(10, 30)).state
     'refuted'
     """
