@@ -20,7 +20,6 @@ from ...numerics.matrices import eigenvalues_with_errors
 from ...numerics.rounded import judged
 from ...numerics.routh import all_decay
 from ..linear.modes import growth
-from .device import by_device
 from .grids import Grid, Tile, flat, limits, tiles
 
 Array = npt.NDArray[Any]
@@ -82,6 +81,8 @@ def _chosen(grid: Grid, engine: str) -> str:
 def _everywhere(grid: Grid, engine: str, codes: Array) -> Array:
     """Write codes for the whole grid, tile by tile on all cores; return the flat indices of those that are open."""
     if engine == "cuda":
+        from .device import by_device
+
         return by_device(grid, codes)
     work: Callable[[Tile], Array] = {
         "numpy": lambda tile: _by_numpy(grid, tile, codes),
